@@ -1,0 +1,27 @@
+#pragma once
+#include <memory>
+#include <span>
+#include <string_view>
+
+#include "engine/scene/scene.h"
+#include "engine/strategy/strategy.h"
+
+namespace firstray {
+
+/// One way to find hits, by name.
+struct StrategyEntry {
+    std::string_view name;
+    std::string_view summary;  ///< one line for --help
+    bool peer = false;         ///< somebody else's structure: agrees with ours, but not to the last bit
+    std::unique_ptr<Strategy<float>> (*make)(const Scene& scene, const StrategyOptions& options) = nullptr;
+    std::unique_ptr<Strategy<double>> (*make_double)(const Scene& scene, const StrategyOptions& options) =
+        nullptr;  ///< null where there is no such precision
+};
+
+/// Every strategy that this build knows; the command, the tests and the benchmarks loop over this.
+std::span<const StrategyEntry> strategies();
+
+/// The entry of that name, or null.
+const StrategyEntry* find_strategy(std::string_view name);
+
+}  // namespace firstray

@@ -1,0 +1,27 @@
+#pragma once
+#include <cstdint>
+#include <filesystem>
+#include <string>
+
+#include "engine/scene/scene.h"
+
+namespace firstray {
+
+/// Bounds on what a scene file may ask for; a file that asks for more is refused with LimitError or SceneError.
+struct ReadLimits {
+    int include_depth = 32;
+    int transform_depth = 1024;
+    std::size_t files = 4096;            ///< executed includes may repeat files; this counts distinct ones
+    std::uint64_t file_bytes = 1u << 30;
+    std::uint64_t primitives = 1u << 30;
+    std::uint64_t keys = 1'000'000;      ///< of one track
+    int resolution = 16384;              ///< of the view, per axis
+    bool allow_outside = false;          ///< includes and textures may lie outside the main file's folder
+};
+
+/// Reads an AFF scene (Animated File Format, BART 2000) with everything it includes.
+/// main_file  includes and textures are found in its folder
+/// throws     FileError when a file cannot be read, SceneError for what is wrong in one, LimitError
+Scene read_aff(const std::filesystem::path& main_file, const ReadLimits& limits = {});
+
+}  // namespace firstray

@@ -1,0 +1,32 @@
+#pragma once
+#include <glm/glm.hpp>
+
+#include <limits>
+
+namespace firstray {
+
+/// An axis-aligned box, closed; empty while lo > hi.
+template <typename Real>
+struct BasicAabb {
+    using Vec = glm::vec<3, Real, glm::defaultp>;
+    Vec lo{std::numeric_limits<Real>::infinity()};
+    Vec hi{-std::numeric_limits<Real>::infinity()};
+
+    void grow(const Vec& p)
+    {
+        lo = glm::min(lo, p);
+        hi = glm::max(hi, p);
+    }
+    void grow(const BasicAabb& box)
+    {
+        lo = glm::min(lo, box.lo);
+        hi = glm::max(hi, box.hi);
+    }
+    bool empty() const { return !(lo.x <= hi.x && lo.y <= hi.y && lo.z <= hi.z); }
+    Vec size() const { return hi - lo; }
+};
+
+using Aabb = BasicAabb<float>;
+using DAabb = BasicAabb<double>;
+
+}  // namespace firstray

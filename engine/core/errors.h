@@ -1,0 +1,51 @@
+#pragma once
+#include <stdexcept>
+#include <string>
+
+namespace firstray {
+
+/// What a failed run is to blame on; the command's exit codes are these values.
+enum class Fault { rendering = 1, usage = 2, scene = 3, file = 4, limit = 5 };
+
+/// Base of everything the library throws on purpose. what() is one line (a scene fault adds one line per include).
+class Error : public std::runtime_error {
+public:
+    Error(Fault fault, const std::string& message) : std::runtime_error(message), fault_(fault) {}
+    Fault fault() const { return fault_; }
+
+private:
+    Fault fault_;
+};
+
+/// A place in a scene file; lines and columns count from 1, columns in bytes.
+struct FilePlace {
+    std::string file;
+    int line = 1;
+    int column = 1;
+};
+
+/// A file that does not say what it must: "file:line:column: what was read, expected what was expected".
+class SceneError : public Error {
+public:
+    /// includes  the chain of includes that led there, one line each ("\n  included from main.aff:12:3"), or empty
+    SceneError(const FilePlace& place, const std::string& read, const std::string& expected,
+               const std::string& includes = {})
+        : Error(Fault::scene, place.file + ":" + std::to_string(place.line) + ":" + std::to_string(place.column) +
+                                  ": " + read + ", expected " + expected + includes)
+    {
+    }
+};
+
+/// A file that cannot be opened, read or written; the message names it and the reason.
+class FileError : public Error {
+public:
+    explicit FileError(const std::string& message) : Error(Fault::file, message) {}
+};
+
+/// Something larger than a limit allows; the message names the limit.
+class LimitError : public Error {
+public:
+    explicit LimitError(const std::string& message) : Error(Fault::limit, message) {}
+};
+
+}  // namespace firstray

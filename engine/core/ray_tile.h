@@ -1,0 +1,74 @@
+#pragma once
+#include <glm/glm.hpp>
+
+#include <array>
+#include <cstdint>
+#include <limits>
+
+namespace firstray {
+
+/// Scene-wide index of a primitive; ids run group by group, so order by id is order by (group, primitive).
+using PrimitiveId = std::uint32_t;
+inline constexpr PrimitiveId no_primitive = 0xffffffffu;
+
+/// Which primitives a ray can meet.
+enum class RayMask : std::uint8_t {
+    all,
+    opaque,       ///< transmittance 0
+    transmitting  ///< transmittance > 0
+};
+
+/// What a ray cost: filled only where a tile asks for it.
+struct RayCost {
+    std::uint32_t cells = 0;        ///< cells entered, empty ones included
+    std::uint32_t tests = 0;        ///< primitives tested, lanes of padding not counted
+    std::uint64_t nanoseconds = 0;  ///< wall-clock time spent searching
+};
+
+/// Up to 1,024 rays, structure of arrays, with room for what is found along them.
+/// A ray is apex + t * direction[i] (or origin[i] + t * direction[i] where there is no common apex), t in the open
+/// interval (t_min, t_max). Coordinates are the root system's: world minus the scene's origin (Scene::origin).
+/// Directions need not be normalised; t counts in their lengths. A ray with a NaN, an infinite origin or direction, or a
+/// zero direction meets nothing.
+template <typename Real>
+struct RayTile {
+    using Vec = glm::vec<3, Real, glm::defaultp>;
+    static constexpr int capacity = 1024;
+    using Lane = std::array<Real, capacity>;
+
+    int count = 0;                ///< rays in use, [0, capacity]
+    bool common_apex = false;     ///< all rays start at `apex`; `origin` is then not read
+    RayMask mask = RayMask::all;  ///< of all rays in the tile
+    Vec apex{0};
+
+    alignas(64) Lane origin[3];     ///< x, y, z
+    alignas(64) Lane direction[3];  ///< x, y, z
+    alignas(64) Lane t_min;
+    alignas(64) Lane t_max;  ///< in: the far end, infinity allowed; out, by closest: t of the nearest hit, if any
+
+    /// Set by closest: no_primitive where nothing was hit. Set by occluded: any primitive met, or no_primitive.
+    alignas(64) std::array<PrimitiveId, capacity> primitive;
+    alignas(64) Lane u;  ///< triangle: weight of vertex 1; quadrics: 0
+    alignas(64) Lane v;  ///< triangle: weight of vertex 2; quadrics: 0
+
+    RayCost* cost = nullptr;  ///< `count` entries that the search adds to, or null: counting then costs nothing
+
+    Vec origin_of(int i) const { return common_apex ? apex : Vec(origin[0][i], origin[1][i], origin[2][i]); }
+    Vec direction_of(int i) const { return {direction[0][i], direction[1][i], direction[2][i]}; }
+
+    void set_origin(int i, const Vec& o)
+    {
+        for (int axis = 0; axis < 3; ++axis) origin[axis][i] = o[axis];
+    }
+    void set_direction(int i, const Vec& d)
+    {
+        for (int axis = 0; axis < 3; ++axis) direction[axis][i] = d[axis];
+    }
+    void set_interval(int i, Real begin, Real end = std::numeric_limits<Real>::infinity())
+    {
+        t_min[i] = begin;
+        t_max[i] = end;
+    }
+};
+
+}  // namespace firstray

@@ -1,0 +1,30 @@
+#pragma once
+#include <glm/glm.hpp>
+
+namespace firstray {
+
+/// An affine map p -> linear * p + offset, in double: poses and ray transforms never run in float.
+struct Transform {
+    glm::dmat3 linear{1.0};
+    glm::dvec3 offset{0.0};
+
+    glm::dvec3 point(const glm::dvec3& p) const { return linear * p + offset; }
+    glm::dvec3 vector(const glm::dvec3& v) const { return linear * v; }
+};
+
+/// a_from_b * b_from_c = a_from_c.
+inline Transform operator*(const Transform& a, const Transform& b)
+{
+    return {a.linear * b.linear, a.linear * b.offset + a.offset};
+}
+
+/// Whether the map squeezes space into a plane, a line or a point (or is not finite), so that it has no usable inverse.
+bool is_singular(const Transform& t);
+
+/// The inverse map. Only for maps that are not singular.
+Transform inverse(const Transform& t);
+
+/// Maps normals: the inverse transpose of `linear`, up to a positive factor; defined for singular maps too.
+glm::dmat3 normal_matrix(const Transform& t);
+
+}  // namespace firstray

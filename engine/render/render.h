@@ -1,0 +1,39 @@
+#pragma once
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "engine/core/executor.h"
+#include "engine/render/frame.h"
+#include "engine/render/texture.h"
+#include "engine/scene/pose.h"
+#include "engine/strategy/strategy.h"
+
+namespace firstray {
+
+/// What the user chooses about pictures.
+struct RenderOptions {
+    int width = 800, height = 600;  ///< >= 1
+    int depth = 4;                  ///< rays in a row after the primary one, >= 0; 0 shades primary hits only
+    int samples = 1;                ///< per pixel, >= 1; 1 is the pixel's centre
+    bool costs = false;             ///< also fill the cells, tests and time layers (slower)
+};
+
+/// How many rays were traced, by kind.
+struct RayCounts {
+    std::uint64_t primary = 0, shadow = 0, reflected = 0, transmitted = 0;
+    std::uint64_t total() const { return primary + shadow + reflected + transmitted; }
+    RayCounts& operator+=(const RayCounts& other);
+};
+
+/// Renders the pose that the strategy was last updated to: Whitted's ray tree, tile by tile on the executor's threads.
+/// The picture does not depend on the number of threads or on the strategy.
+/// textures  by Scene::textures
+/// frame     resized; every layer that the options ask for is filled
+/// throws    what the strategy throws
+template <typename Real>
+RayCounts render(const Strategy<Real>& strategy, const Pose& pose, std::span<const Texture> textures,
+                 const RenderOptions& options, const Executor& executor, Frame& frame);
+
+}  // namespace firstray

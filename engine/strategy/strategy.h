@@ -1,0 +1,62 @@
+#pragma once
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "engine/core/executor.h"
+#include "engine/core/ray_tile.h"
+#include "engine/scene/pose.h"
+
+namespace firstray {
+
+/// How the test of a ray and a triangle is computed; t, u and v have the precision of `Real` below.
+enum class Precision {
+    fast,    ///< float; rays can leak through edges and vertices
+    robust,  ///< float, and where float cannot tell, double, and where double cannot tell, exact: watertight
+    double_  ///< double vertices and rays, exact signs
+};
+
+/// What a structure consists of and what it took. Counts are totals after update, lazily built parts included.
+struct StructureReport {
+    std::uint64_t grids = 0;       ///< top grids and supergrids
+    std::uint64_t subgrids = 0;    ///< grids inside voxels
+    std::uint64_t voxels = 0;      ///< cells of all grids
+    std::uint64_t filled_voxels = 0;
+    std::uint64_t references = 0;  ///< listings of primitives in voxels
+    std::uint64_t primitives = 0;  ///< visible ones, each once
+    std::uint64_t bytes = 0;       ///< held now, vertices in the root system included
+    std::uint64_t peak_bytes = 0;  ///< most held at once since the strategy was made, building included
+    std::uint64_t depth = 0;       ///< levels of grids, 1 without subgrids
+    std::uint64_t largest_list = 0;
+    double lazy_build_ms = 0.0;    ///< spent building while rays flew, summed over threads, since update
+};
+
+/// A way to find hits in an animated scene. update() runs alone; between two updates any number of threads may search.
+/// Real is float for the precisions fast and robust, double for double_.
+///
+/// A hit is the smallest (t, group, primitive) among all hits with t in (t_min, t_max) on visible primitives that the
+/// tile's mask admits. All strategies of one precision find the same hit, bit for bit.
+template <typename Real>
+class Strategy {
+public:
+    virtual ~Strategy() = default;
+    /// Brings the structure to a pose of the scene that the strategy was made for. The pose must live until the next
+    /// update.
+    virtual void update(const Pose& pose) = 0;
+    /// Finds each ray's nearest hit: t_max, primitive, u, v are set; t_max stays where nothing is hit.
+    virtual void closest(RayTile<Real>& rays) const = 0;
+    /// Finds out whether each ray meets anything: primitive is set to one that it meets, or no_primitive.
+    virtual void occluded(RayTile<Real>& rays) const = 0;
+    virtual StructureReport report() const = 0;
+};
+
+/// What the user chooses about structures; each field has a flag of the command.
+struct StrategyOptions {
+    Precision precision = Precision::robust;
+    float grid_density = 0.0f;         ///< cells of the top grid per primitive, > 0; 0 means the default
+    int max_list = 0;                  ///< primitives in a voxel above which it gets a subgrid, >= 1; 0: the default
+    int grid_depth = 3;                ///< levels of grids, >= 1; 1 means no subgrids
+    const Executor* executor = nullptr;  ///< runs updates; must outlive the strategy; null: one thread
+};
+
+}  // namespace firstray
