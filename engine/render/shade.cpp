@@ -1,0 +1,63 @@
+#include "engine/render/shade.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace firstray {
+namespace {
+
+/// The direction mirrored at the plane of a unit normal, made unit again.
+glm::dvec3 mirrored(const glm::dvec3& direction, const glm::dvec3& normal)
+{
+    return glm::normalize(direction - 2.0 * glm::dot(direction, normal) * normal);
+}
+
+/// max(0, R.V)^shine.
+float highlight(const Surface& s, const glm::dvec3& l, double n_dot_l)
+{
+    const double r_dot_v = -glm::dot(2.0 * n_dot_l * s.normal - l, s.direction);
+    if (!(r_dot_v > 0.0)) return 0.0f;
+    return std::pow(std::min(static_cast<float>(r_dot_v), 1.0f), s.material->shine);
+}
+
+}  // namespace
+
+glm::vec3 ambient_term(const Surface& surface, const glm::vec3& ambient)
+{
+    return ambient * surface.material->ambient * surface.texture;
+}
+
+bool responds_to(const Surface& surface, const glm::dvec3& to_light)
+{
+    const Material& m = *surface.material;
+    const bool black = m.diffuse == glm::vec3(0.0f) && m.specular == glm::vec3(0.0f);
+    return !black && glm::dot(surface.normal, to_light) > 0.0;
+}
+
+glm::vec3 light_term(const Surface& surface, const glm::dvec3& to_light, const glm::vec3& colour)
+{
+    const Material& m = *surface.material;
+    const glm::dvec3 l = to_light / glm::length(to_light);
+    const double n_dot_l = glm::dot(surface.normal, l);
+    glm::vec3 sum = m.diffuse * surface.texture * static_cast<float>(n_dot_l);
+    if (m.specular != glm::vec3(0.0f)) sum += m.specular * highlight(surface, l, n_dot_l);
+    return colour * sum;
+}
+
+glm::dvec3 reflected_direction(const Surface& surface)
+{
+    return mirrored(surface.direction, surface.normal);
+}
+
+glm::dvec3 transmitted_direction(const Surface& surface)
+{
+    const double ior = surface.material->ior;
+    if (ior == 0.0 || ior == 1.0) return surface.direction;
+    const double eta = surface.from_outside ? 1.0 / ior : ior;
+    const double cos_in = -glm::dot(surface.direction, surface.normal);
+    const double cos_out_squared = 1.0 - eta * eta * (1.0 - cos_in * cos_in);
+    if (cos_out_squared < 0.0) return reflected_direction(surface);
+    return glm::normalize(eta * surface.direction + (eta * cos_in - std::sqrt(cos_out_squared)) * surface.normal);
+}
+
+}  // namespace firstray

@@ -1,0 +1,80 @@
+#pragma once
+#include <glm/glm.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <type_traits>
+
+#include "engine/core/ray_tile.h"
+#include "engine/render/texture.h"
+#include "engine/scene/pose.h"
+
+namespace firstray {
+
+inline double largest_coordinate(const glm::dvec3& p)
+{
+    return std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+}
+
+/// A ray and the nearest hit along it, root system, in double whatever the tile's precision.
+struct RayHit {
+    glm::dvec3 origin{0.0};
+    glm::dvec3 direction{0.0};  ///< unit length
+    double t = 0.0, u = 0.0, v = 0.0;
+    PrimitiveId primitive = no_primitive;
+};
+
+/// The place that a ray met, root system. Surfaces have two sides that look alike: both normals are turned to the side
+/// that the ray came from.
+struct Surface {
+    glm::dvec3 point{0.0};
+    glm::dvec3 direction{0.0};  ///< of the ray, unit
+    glm::dvec3 geometric{0.0};  ///< unit normal of the primitive
+    glm::dvec3 normal{0.0};     ///< unit normal to shade with
+    bool from_outside = true;   ///< whether the primitive's own normal pointed to the ray's side
+    double extent = 0.0;        ///< largest coordinate, as a magnitude, that `point` was computed from
+    const Material* material = nullptr;
+    glm::vec3 texture{1.0f};  ///< colour of the texture here; white without one
+};
+
+Surface surface_at(const Pose& pose, std::span<const Texture> textures, const RayHit& hit);
+
+/// Ray i of a tile after Strategy::closest; it must have hit.
+template <typename Real>
+RayHit ray_hit(const RayTile<Real>& rays, int i)
+{
+    const auto lane = static_cast<std::size_t>(i);
+    return {.origin = glm::dvec3(rays.origin_of(i)),
+            .direction = glm::dvec3(rays.direction_of(i)),
+            .t = rays.t_max[lane],
+            .u = rays.u[lane],
+            .v = rays.v[lane],
+            .primitive = rays.primitive[lane]};
+}
+
+/// How far off a surface a ray must begin or end so that it cannot meet the surface again, per unit of the largest
+/// coordinate involved: free of any scale of the scene. In units of the rounding error (2^-24 in float) vertices are
+/// off by 1 per axis, likewise the ray's origin, its direction up to 2 (as long as twice the largest coordinate), and t
+/// a few: less than 16 along the normal. In double the vertices tested are those that the point was computed from, and
+/// 8 units of 2^-53 do.
+template <typename Real>
+inline constexpr double self_hit_margin = std::is_same_v<Real, float> ? 0x1p-20 : 0x1p-50;
+
+/// Where a ray that leaves the surface in `direction` begins: off it, on the side that the ray leaves to.
+template <typename Real>
+glm::dvec3 start_of_ray(const Surface& surface, const glm::dvec3& direction)
+{
+    const double off = self_hit_margin<Real> * surface.extent;
+    return surface.point + (glm::dot(direction, surface.geometric) < 0.0 ? -off : off) * surface.geometric;
+}
+
+/// Where a ray that comes from a light ends: off the surface, on the viewer's side.
+template <typename Real>
+glm::dvec3 end_of_shadow_ray(const Surface& surface, const glm::dvec3& light)
+{
+    const double extent = std::max(surface.extent, largest_coordinate(light));
+    return surface.point + self_hit_margin<Real> * extent * surface.geometric;
+}
+
+}  // namespace firstray
