@@ -70,7 +70,7 @@ HWY_INLINE std::uint32_t not_passing(const RootTriangle<Real>& triangle, const R
             const V length = hn::Load(d, rays.length.data() + first + lane);
             error =
                 hn::MulAdd(hn::Set(d, side_error<Real>), hn::Mul(hn::Mul(hn::Set(d, triangle.edge), distance), length),
-                           hn::Set(d, least_side<Real>));
+                           hn::Set(d, least_bound<Real>));
         }
         // Written so that a NaN (overflow) is not certain either.
         const auto passing = hn::And(hn::Lt(least, hn::Neg(error)), hn::Gt(most, error));

@@ -9,8 +9,8 @@ namespace {
 int side_sign(double side, double error, const glm::dvec3& from, const glm::dvec3& to, const glm::dvec3& origin,
               const glm::dvec3& direction)
 {
-    if (side > error) return 1;
-    if (side < -error) return -1;
+    if (error >= least_bound<double> && side > error) return 1;
+    if (error >= least_bound<double> && side < -error) return -1;
     return exact_side(to, from, origin, direction);
 }
 
@@ -20,7 +20,7 @@ bool passes_inside(const RootTriangle<double>& triangle, const TriangleSides<dou
     const glm::dvec3 apart = glm::abs(triangle.v[0] - origin), along = glm::abs(direction);
     const double distance = std::max(std::max(apart.x, apart.y), apart.z) + triangle.edge;
     const double length = std::max(std::max(along.x, along.y), along.z);
-    const double error = side_error<double> * (triangle.edge * distance * length) + least_side<double>;
+    const double error = side_error<double> * (triangle.edge * distance * length);
     const auto& v = triangle.v;
     const int u = side_sign(s.u, error, v[1], v[2], origin, direction);
     const int w = side_sign(s.w, error, v[0], v[1], origin, direction);

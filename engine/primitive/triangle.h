@@ -41,9 +41,9 @@ Real longest_edge(const glm::vec<3, Real, glm::defaultp>& v0, const glm::vec<3, 
 template <typename Real>
 inline constexpr Real side_error = Real(100) * std::numeric_limits<Real>::epsilon() / 2;
 
-/// Keeps the bound above what underflow can hide.
+/// A bound below this may hide underflow: nothing is certain then.
 template <typename Real>
-inline constexpr Real least_side = std::numeric_limits<Real>::min() * Real(1 << 20);
+inline constexpr Real least_bound = std::numeric_limits<Real>::min() * Real(1 << 20);
 
 /// t comes from float only where |Ng . d| is at least this much of edge^2 * direction: elsewhere, for slivers and
 /// grazing rays, the quotient loses too much and is computed in double.
@@ -51,6 +51,10 @@ inline constexpr float least_slope = 1.0f / 64;
 /// ... and only where the hit is at least this part of the triangle's distance away: the numerator's error scales with
 /// the distance of the vertices, not of the hit.
 inline constexpr float least_distance = 1.0f / 8;
+
+/// Precision::fast trusts float's sides up to this many edges of distance (farther triangles are smaller than a pixel):
+/// then a ray that it takes for a hit misses the triangle by a hundredth of its size at most.
+inline constexpr float farthest_fast = 1024.0f;
 
 /// How far float's t can be off under these two rules, relative to t: 64 * 50 * 9 half ulps of worst case (in practice
 /// a hundredth of it). Searches look this much beyond the nearest hit, so that they test whatever could beat it.
@@ -106,17 +110,20 @@ inline TriangleHit<float> intersect(const RootTriangle<float>& triangle, const g
     const float distance = std::max(std::max(apart.x, apart.y), apart.z) + triangle.edge;
     const float length = std::max(std::max(along.x, along.y), along.z);
     const float least = std::min(std::min(s.u, s.v), s.w), most = std::max(std::max(s.u, s.v), s.w);
-    bool inside = least >= 0.0f || most <= 0.0f;
+    const bool is_sloped = std::abs(s.slope) > least_slope * (triangle.edge * triangle.edge * length);
     if (exact_signs) {
-        const float error = side_error<float> * (triangle.edge * distance * length) + least_side<float>;
-        if (least < -error && most > error) return {};  // certainly on different sides
-        if (!(least > error || most < -error)) return intersect_in_double(triangle, origin, direction, false);
-        inside = true;
+        const float error = side_error<float> * (triangle.edge * distance * length);
+        const bool is_certain = error >= least_bound<float> && (least > error || most < -error);
+        if (error >= least_bound<float> && least < -error && most > error) return {};
+        if (!is_certain) return intersect_in_double(triangle, origin, direction, false);
+    } else {
+        if (!(least >= 0.0f || most <= 0.0f)) return {};
+        // Rounding alone would let rays meet needles far beyond their ends, and what is tiny from afar almost anywhere.
+        if (!is_sloped || distance > farthest_fast * triangle.edge)
+            return intersect_in_double(triangle, origin, direction, false);
     }
-    if (!inside) return {};
     const float t = s.height / s.slope;
-    if (!(std::abs(s.slope) > least_slope * (triangle.edge * triangle.edge * length)) ||
-        !(std::abs(t) * length >= least_distance * distance))
+    if (!is_sloped || !(std::abs(t) * length >= least_distance * distance))
         return intersect_in_double(triangle, origin, direction, true);
     const float scale = 1.0f / ((s.u + s.v) + s.w);
     return {true, t, s.v * scale, s.w * scale};
