@@ -18,8 +18,9 @@ namespace {
 
 constexpr const char* usage =
     "trace_bench [--scene=FILE]... [--strategies=a,b] [--base=embree] [--reference=NAME] [--rounds=5] [--frames=10]\n"
-    "            [--size=800x592] [--precision=robust|fast] [--shadow-mask=all|opaque] [Google Benchmark's own flags]\n"
+    "            [--size=800x592] [--precision=robust|fast] [--shadow-mask=opaque|all] [Google Benchmark's own flags]\n"
     "Default scenes: BART's, found in the folder that FIRSTRAY_BART_DIR names. Default strategies: all but `list`.\n"
+    "Shadow rays look at opaque primitives alone, as the renderer's do, or with --shadow-mask=all at all.\n"
     "The reference, whose answers the others must give, is by default the first strategy of our own.\n";
 
 struct Settings {

@@ -48,30 +48,27 @@ bool visible_at(const PlacedQuadric& quadric, const DRay& ray, double t)
     return p.x * d.x + p.y * d.y + gradient_z * d.z > 0.0;  // on its way out
 }
 
-/// The nearest visible crossing in (t_min, t_max), or infinity.
-double nearest(const PlacedQuadric& quadric, const DRay& body_ray, double t_min, double t_max)
+/// The nearest visible crossing whose t, as a float, lies in [t_min, t_max]; else infinity.
+float nearest(const PlacedQuadric& quadric, const DRay& body_ray, float t_min, float t_max)
 {
     // Starting where the line is nearest to the quadric's own origin: far rays would lose the surface in rounding.
     DRay ray{quadric.quadric_from_body.point(body_ray.origin), quadric.quadric_from_body.vector(body_ray.direction)};
     const double start = -glm::dot(ray.origin, ray.direction) / glm::dot(ray.direction, ray.direction);
     ray.origin += start * ray.direction;
-    for (const double t : crossings(quadric, ray).t)
-        if (start + t > t_min && start + t < t_max && visible_at(quadric, ray, t)) return start + t;
-    return std::numeric_limits<double>::infinity();
+    for (const double beyond_start : crossings(quadric, ray).t) {
+        const float t = static_cast<float>(start + beyond_start);
+        if (t >= t_min && t <= t_max && visible_at(quadric, ray, beyond_start)) return t;
+    }
+    return std::numeric_limits<float>::infinity();
 }
 
-/// Embree calls with N = 1 for the single rays that the peers trace.
-struct Lane {
-    RTCRayN* ray;
-    const PlacedQuadric& quadric;
-
-    double search() const
-    {
-        const DRay body_ray{{RTCRayN_org_x(ray, 1, 0), RTCRayN_org_y(ray, 1, 0), RTCRayN_org_z(ray, 1, 0)},
-                            {RTCRayN_dir_x(ray, 1, 0), RTCRayN_dir_y(ray, 1, 0), RTCRayN_dir_z(ray, 1, 0)}};
-        return nearest(quadric, body_ray, RTCRayN_tnear(ray, 1, 0), RTCRayN_tfar(ray, 1, 0));
-    }
-};
+/// Searches along the one ray that Embree hands over: peers trace single rays.
+float nearest(const PlacedQuadric& quadric, RTCRayN* ray)
+{
+    const DRay body_ray{{RTCRayN_org_x(ray, 1, 0), RTCRayN_org_y(ray, 1, 0), RTCRayN_org_z(ray, 1, 0)},
+                        {RTCRayN_dir_x(ray, 1, 0), RTCRayN_dir_y(ray, 1, 0), RTCRayN_dir_z(ray, 1, 0)}};
+    return nearest(quadric, body_ray, RTCRayN_tnear(ray, 1, 0), RTCRayN_tfar(ray, 1, 0));
+}
 
 const PlacedQuadric& quadric_of(void* user, unsigned index)
 {
@@ -82,10 +79,10 @@ void intersect(const RTCIntersectFunctionNArguments* args)
 {
     if (!args->valid[0]) return;
     RTCRayN* ray = RTCRayHitN_RayN(args->rayhit, 1);
-    const double t = Lane{ray, quadric_of(args->geometryUserPtr, args->primID)}.search();
-    if (!(static_cast<float>(t) < RTCRayN_tfar(ray, 1, 0))) return;
+    const float t = nearest(quadric_of(args->geometryUserPtr, args->primID), ray);
+    if (t == std::numeric_limits<float>::infinity()) return;
     RTCHitN* hit = RTCRayHitN_HitN(args->rayhit, 1);
-    RTCRayN_tfar(ray, 1, 0) = static_cast<float>(t);
+    RTCRayN_tfar(ray, 1, 0) = t;
     RTCHitN_u(hit, 1, 0) = RTCHitN_v(hit, 1, 0) = 0.0f;
     RTCHitN_primID(hit, 1, 0) = args->primID;
     RTCHitN_geomID(hit, 1, 0) = args->geomID;
@@ -95,8 +92,9 @@ void intersect(const RTCIntersectFunctionNArguments* args)
 void occluded(const RTCOccludedFunctionNArguments* args)
 {
     if (!args->valid[0]) return;
-    const double t = Lane{args->ray, quadric_of(args->geometryUserPtr, args->primID)}.search();
-    if (std::isfinite(t)) RTCRayN_tfar(args->ray, 1, 0) = -std::numeric_limits<float>::infinity();  // Embree's "met"
+    constexpr float infinity = std::numeric_limits<float>::infinity();
+    if (nearest(quadric_of(args->geometryUserPtr, args->primID), args->ray) < infinity)
+        RTCRayN_tfar(args->ray, 1, 0) = -infinity;  // Embree's sign that something was met
 }
 
 /// The box of a disc (or, with three axes, of a ball) carried by `linear`: half its extent along each world axis.
