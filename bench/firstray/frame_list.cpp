@@ -40,7 +40,8 @@ std::vector<int> frames_of(const std::vector<FrameRange>& ranges, int frames)
     std::set<int> listed;
     for (const FrameRange& range : ranges) {
         if (range.last >= frames)
-            throw UsageError(fmt::format("frame {} is not in the scene, expected one from 0 to {}", range.last, frames - 1));
+            throw UsageError(
+                fmt::format("frame {} is not in the scene, expected one from 0 to {}", range.last, frames - 1));
         for (int frame = range.first; frame <= range.last; frame += range.step) listed.insert(frame);
     }
     return {listed.begin(), listed.end()};

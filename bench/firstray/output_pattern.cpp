@@ -45,7 +45,8 @@ void check_pattern(const std::string& pattern, std::size_t frames, bool layers)
     const std::size_t first = pattern.find('#');
     if (first == std::string::npos) {
         if (frames > 1)
-            throw UsageError(fmt::format("--output: '{}' names one file for {} frames, expected a run of #", pattern, frames));
+            throw UsageError(
+                fmt::format("--output: '{}' names one file for {} frames, expected a run of #", pattern, frames));
         return;
     }
     const std::size_t end = pattern.find_first_not_of('#', first);

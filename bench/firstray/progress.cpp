@@ -41,8 +41,8 @@ void Progress::frame_done(int frame)
     if (style_ == ProgressStyle::never) return;
     const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start_;
     const double left = elapsed.count() / static_cast<double>(done_) * static_cast<double>(frames_ - done_);
-    const std::string text = fmt::format("frame {} ({}/{}), {} %, {} left", frame, done_, frames_, 100 * done_ / frames_,
-                                         format_duration(left));
+    const std::string text = fmt::format("frame {} ({}/{}), {} %, {} left", frame, done_, frames_,
+                                         100 * done_ / frames_, format_duration(left));
     if (style_ == ProgressStyle::lines) return message(text);
     err_ << "\r\x1b[K" << text << std::flush;
     line_open_ = true;

@@ -42,13 +42,12 @@ WorldRay parse_ray(const Line& line)
 {
     const auto fields = split(line.text, ',');
     if (fields.size() != fields_per_ray) {
-        const char* at = fields.size() < fields_per_ray ? line.text.data() + line.text.size()
-                                                        : fields[fields_per_ray].data();
+        const char* at =
+            fields.size() < fields_per_ray ? line.text.data() + line.text.size() : fields[fields_per_ray].data();
         throw SceneError(line.place(at), fmt::format("{} fields", fields.size()), fmt::format("8 fields: {}", header));
     }
     std::array<double, fields_per_ray> number{};
-    for (std::size_t i = 0; i < fields_per_ray; ++i)
-        number[i] = parse_number(line, fields[i], i + 1 == fields_per_ray);
+    for (std::size_t i = 0; i < fields_per_ray; ++i) number[i] = parse_number(line, fields[i], i + 1 == fields_per_ray);
     return {{number[0], number[1], number[2]}, {number[3], number[4], number[5]}, number[6], number[7]};
 }
 
@@ -73,7 +72,8 @@ std::vector<WorldRay> read_rays(const std::string& file)
 {
     if (file == "-") return parse_rays(std::cin, "standard input");
     std::error_code error;
-    if (std::filesystem::is_directory(file, error)) throw FileError(fmt::format("cannot read {}: it is a folder", file));
+    if (std::filesystem::is_directory(file, error))
+        throw FileError(fmt::format("cannot read {}: it is a folder", file));
     errno = 0;
     std::ifstream in(file, std::ios::binary);
     if (!in) throw FileError(fmt::format("cannot read {}: {}", file, std::generic_category().message(errno)));

@@ -6,10 +6,16 @@
 #include <sstream>
 
 #include "engine/core/errors.h"
-#include "tests/scratch_folder.h"
+#include "tests/support/temp_folder.h"
 
 namespace firstray {
 namespace {
+
+/// How many entries there are, hidden ones included.
+std::ptrdiff_t entries(const test::TempFolder& folder)
+{
+    return std::distance(std::filesystem::directory_iterator(folder.path()), {});
+}
 
 std::string content_of(const std::filesystem::path& file)
 {
@@ -20,44 +26,44 @@ std::string content_of(const std::filesystem::path& file)
 
 TEST_CASE("a pending file appears under its name only when it is committed")
 {
-    const ScratchFolder folder;
-    const auto target = folder.file("answer.txt", "old");
+    const test::TempFolder folder;
+    const auto target = folder.write("answer.txt", "old");
     {
         PendingFile pending(target);
         std::ofstream(pending.path()) << "half";
         CHECK(content_of(target) == "old");
         CHECK(pending.path().parent_path() == target.parent_path());
-        CHECK(folder.entries() == 2);
+        CHECK(entries(folder) == 2);
     }
-    CHECK(folder.entries() == 1);
+    CHECK(entries(folder) == 1);
     CHECK(content_of(target) == "old");
 
     PendingFile pending(target);
     std::ofstream(pending.path()) << "new";
     pending.commit();
     CHECK(content_of(target) == "new");
-    CHECK(folder.entries() == 1);
+    CHECK(entries(folder) == 1);
 }
 
 TEST_CASE("a whole file is written into folders that did not exist")
 {
-    const ScratchFolder folder;
-    write_whole_file(folder / "a/b/c.json", "{}\n");
-    CHECK(content_of(folder / "a/b/c.json") == "{}\n");
+    const test::TempFolder folder;
+    write_whole_file(folder.path() / "a/b/c.json", "{}\n");
+    CHECK(content_of(folder.path() / "a/b/c.json") == "{}\n");
 }
 
 TEST_CASE("a file that cannot be written is a file fault that names it")
 {
-    const ScratchFolder folder;
-    folder.file("plain", "");
-    std::filesystem::create_directory(folder / "taken");
+    const test::TempFolder folder;
+    folder.write("plain", "");
+    std::filesystem::create_directory(folder.path() / "taken");
     for (const std::string name : {"plain/below.txt", "taken"}) {
         CAPTURE(name);
-        const auto target = folder / name;
+        const auto target = folder.path() / name;
         const std::string start = "cannot write " + target.string() + ": ";
         CHECK_THROWS_WITH_AS(write_whole_file(target, "x"), doctest::Contains(start.c_str()), FileError);
     }
-    CHECK(folder.entries() == 2);
+    CHECK(entries(folder) == 2);
 }
 
 }  // namespace

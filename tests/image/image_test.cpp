@@ -7,14 +7,20 @@
 
 #include <bit>
 #include <csignal>
-#include <cstdlib>
 #include <limits>
 
 #include "engine/core/errors.h"
-#include "tests/scratch_folder.h"
+#include "tests/support/bart.h"
+#include "tests/support/temp_folder.h"
 
 namespace firstray::image {
 namespace {
+
+/// How many entries there are, hidden ones included.
+std::ptrdiff_t entries(const test::TempFolder& folder)
+{
+    return std::distance(std::filesystem::directory_iterator(folder.path()), {});
+}
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
 constexpr Aov all_aovs[] = {Aov::distance, Aov::primitive, Aov::group, Aov::cells, Aov::tests, Aov::time};
@@ -77,10 +83,10 @@ ReadBack read_back(const std::filesystem::path& file)
 
 TEST_CASE("an EXR frame keeps the type and every bit of all layers")
 {
-    const ScratchFolder folder;
+    const test::TempFolder folder;
     const Frame frame = awkward_frame();
-    write_frame(folder / "frame.exr", frame, all_aovs);
-    const ReadBack read = read_back(folder / "frame.exr");
+    write_frame(folder.path() / "frame.exr", frame, all_aovs);
+    const ReadBack read = read_back(folder.path() / "frame.exr");
     CHECK(read.spec.nchannels == 9);
     CHECK(read.floats("distance") == frame.distance);
     CHECK(read.uints("primitive") == frame.primitive);
@@ -96,39 +102,39 @@ TEST_CASE("an EXR frame keeps the type and every bit of all layers")
 
 TEST_CASE("a frame without layers is three channels of float")
 {
-    const ScratchFolder folder;
-    write_frame(folder / "frame.exr", awkward_frame(), {});
-    const ReadBack read = read_back(folder / "frame.exr");
+    const test::TempFolder folder;
+    write_frame(folder.path() / "frame.exr", awkward_frame(), {});
+    const ReadBack read = read_back(folder.path() / "frame.exr");
     CHECK(read.spec.channelnames == std::vector<std::string>{"R", "G", "B"});
     CHECK(read.spec.format == OIIO::TypeFloat);
 }
 
 TEST_CASE("writing the same frame twice gives the same bytes")
 {
-    const ScratchFolder folder;
+    const test::TempFolder folder;
     const auto bytes = [](const std::filesystem::path& file) {
         std::ifstream in(file, std::ios::binary);
         return std::string(std::istreambuf_iterator<char>(in), {});
     };
     for (const std::string end : {".exr", ".png"}) {
         CAPTURE(end);
-        write_frame(folder / ("a" + end), awkward_frame(), {});
-        write_frame(folder / ("b" + end), awkward_frame(), {});
-        CHECK(bytes(folder / ("a" + end)) == bytes(folder / ("b" + end)));
+        write_frame(folder.path() / ("a" + end), awkward_frame(), {});
+        write_frame(folder.path() / ("b" + end), awkward_frame(), {});
+        CHECK(bytes(folder.path() / ("a" + end)) == bytes(folder.path() / ("b" + end)));
     }
 }
 
 TEST_CASE("a PNG frame rounds to the nearest of 256 values without gamma")
 {
-    const ScratchFolder folder;
+    const test::TempFolder folder;
     Frame frame;
     frame.width = 256;
     frame.height = 1;
     for (int i = 0; i < 256; ++i) frame.colour.emplace_back(static_cast<float>(i) / 255.0f);
     frame.colour[10] = {-1.0f, 2.0f, std::numeric_limits<float>::quiet_NaN()};
     frame.colour[11] = glm::vec3(10.6f / 255.0f);
-    write_frame(folder / "frame.png", frame, {});
-    const Texture read = read_texture(folder / "frame.png");
+    write_frame(folder.path() / "frame.png", frame, {});
+    const Texture read = read_texture(folder.path() / "frame.png");
     REQUIRE(read.pixels.size() == 768);
     for (std::size_t i = 0; i < 256; ++i)
         if (i != 10) CHECK(read.pixels[3 * i + 1] == i);
@@ -139,12 +145,12 @@ TEST_CASE("a PNG frame rounds to the nearest of 256 values without gamma")
 
 TEST_CASE("attributes are found in the header of both formats")
 {
-    const ScratchFolder folder;
+    const test::TempFolder folder;
     const std::pair<std::string, std::string> attributes[] = {{"firstray:frame", "12"}, {"firstray:strategy", "grid"}};
     for (const std::string name : {"frame.exr", "frame.png"}) {
         CAPTURE(name);
-        write_frame(folder / name, awkward_frame(), {}, attributes);
-        const auto in = OIIO::ImageInput::open((folder / name).string());
+        write_frame(folder.path() / name, awkward_frame(), {}, attributes);
+        const auto in = OIIO::ImageInput::open((folder.path() / name).string());
         REQUIRE(in);
         CHECK(in->spec().get_string_attribute("firstray:frame") == "12");
         CHECK(in->spec().get_string_attribute("firstray:strategy") == "grid");
@@ -153,22 +159,22 @@ TEST_CASE("attributes are found in the header of both formats")
 
 TEST_CASE("what cannot be written is refused and leaves nothing behind")
 {
-    const ScratchFolder folder;
+    const test::TempFolder folder;
     const Frame frame = awkward_frame();
-    CHECK_THROWS_WITH_AS(write_frame(folder / "frame.png", frame, all_aovs),
+    CHECK_THROWS_WITH_AS(write_frame(folder.path() / "frame.png", frame, all_aovs),
                          doctest::Contains("PNG holds colour alone"), FileError);
-    CHECK_THROWS_WITH_AS(write_frame(folder / "frame.jpg", frame, {}), doctest::Contains("must end in .exr or .png"),
-                         FileError);
+    CHECK_THROWS_WITH_AS(write_frame(folder.path() / "frame.jpg", frame, {}),
+                         doctest::Contains("must end in .exr or .png"), FileError);
     Frame without_costs = frame;
     without_costs.cells.clear();
-    CHECK_THROWS_WITH_AS(write_frame(folder / "frame.exr", without_costs, all_aovs), doctest::Contains("cells"),
+    CHECK_THROWS_WITH_AS(write_frame(folder.path() / "frame.exr", without_costs, all_aovs), doctest::Contains("cells"),
                          std::invalid_argument);
-    CHECK(folder.entries() == 0);
+    CHECK(entries(folder) == 0);
 }
 
 TEST_CASE("a disk that is full is a file fault and leaves the old frame as it was")
 {
-    const ScratchFolder folder;
+    const test::TempFolder folder;
     Frame frame;
     frame.width = frame.height = 256;
     for (unsigned i = 0; i < 65536; ++i)
@@ -178,46 +184,46 @@ TEST_CASE("a disk that is full is a file fault and leaves the old frame as it wa
     const auto handler = std::signal(SIGXFSZ, SIG_IGN);
     for (const std::string name : {"frame.exr", "frame.png"}) {
         CAPTURE(name);
-        folder.file(name, "old");
+        folder.write(name, "old");
         const rlimit small{4096, limit.rlim_max};
         setrlimit(RLIMIT_FSIZE, &small);
         bool refused = false;
         try {
-            write_frame(folder / name, frame, {});
+            write_frame(folder.path() / name, frame, {});
         } catch (const FileError&) {
             refused = true;
         }
         setrlimit(RLIMIT_FSIZE, &limit);
         CHECK(refused);
-        CHECK(std::filesystem::file_size(folder / name) == 3);
+        CHECK(std::filesystem::file_size(folder.path() / name) == 3);
     }
     std::signal(SIGXFSZ, handler);
-    CHECK(folder.entries() == 2);
+    CHECK(entries(folder) == 2);
 }
 
 TEST_CASE("pictures of one, three and four channels and of 16 bits are read as 8-bit colour")
 {
-    const ScratchFolder folder;
-    CHECK(read_texture(folder.file("grey.pgm", "P5 2 1 255\n\x10\x20")).pixels ==
+    const test::TempFolder folder;
+    CHECK(read_texture(folder.write("grey.pgm", "P5 2 1 255\n\x10\x20")).pixels ==
           std::vector<std::uint8_t>{16, 16, 16, 32, 32, 32});
-    CHECK(read_texture(folder.file("text.ppm", "P3\n1 2\n255\n1 2 3 4 5 6\n")).pixels ==
+    CHECK(read_texture(folder.write("text.ppm", "P3\n1 2\n255\n1 2 3 4 5 6\n")).pixels ==
           std::vector<std::uint8_t>{1, 2, 3, 4, 5, 6});
-    CHECK(read_texture(folder.file("deep.ppm", std::string("P6 1 1 65535\n\xff\xff\x80\x80\x00\x00", 19))).pixels ==
+    CHECK(read_texture(folder.write("deep.ppm", std::string("P6 1 1 65535\n\xff\xff\x80\x80\x00\x00", 19))).pixels ==
           std::vector<std::uint8_t>{255, 128, 0});
     const std::uint8_t clear[] = {200, 100, 50, 0};
     const auto out = OIIO::ImageOutput::create("png");
     OIIO::ImageSpec spec(1, 1, 4, OIIO::TypeUInt8);
     spec.attribute("oiio:UnassociatedAlpha", 1);
-    REQUIRE(out->open((folder / "clear.png").string(), spec));
+    REQUIRE(out->open((folder.path() / "clear.png").string(), spec));
     REQUIRE(out->write_image(OIIO::TypeUInt8, clear));
     REQUIRE(out->close());
-    CHECK(read_texture(folder / "clear.png").pixels == std::vector<std::uint8_t>{200, 100, 50});
+    CHECK(read_texture(folder.path() / "clear.png").pixels == std::vector<std::uint8_t>{200, 100, 50});
 }
 
 TEST_CASE("comments in a PPM header and bytes after the pixels do no harm")
 {
-    const ScratchFolder folder;
-    const auto file = folder.file("odd.ppm", "P6\n# by hand\n2 # wide\n1\n#\n255\nabcdef and more");
+    const test::TempFolder folder;
+    const auto file = folder.write("odd.ppm", "P6\n# by hand\n2 # wide\n1\n#\n255\nabcdef and more");
     const Texture texture = read_texture(file);
     CHECK(texture.width == 2);
     CHECK(texture.height == 1);
@@ -226,9 +232,9 @@ TEST_CASE("comments in a PPM header and bytes after the pixels do no harm")
 
 TEST_CASE("a header that promises too much is refused before its pixels are read")
 {
-    const ScratchFolder folder;
-    const auto wide = folder.file("wide.ppm", "P6\n99999 2\n255\n");
-    const auto large = folder.file("large.ppm", "P6\n16000 16000\n255\n");
+    const test::TempFolder folder;
+    const auto wide = folder.write("wide.ppm", "P6\n99999 2\n255\n");
+    const auto large = folder.write("large.ppm", "P6\n16000 16000\n255\n");
     CHECK_THROWS_WITH_AS(read_texture(wide), doctest::Contains("99999x2, the limit is 16384 per axis"), LimitError);
     CHECK_THROWS_WITH_AS(read_texture(large, {.bytes = 1'000'000}), doctest::Contains("the limit is 1000000"),
                          LimitError);
@@ -236,12 +242,12 @@ TEST_CASE("a header that promises too much is refused before its pixels are read
 
 TEST_CASE("what is no picture is a file fault that names the file and the reason")
 {
-    const ScratchFolder folder;
-    mkfifo((folder / "pipe.ppm").c_str(), 0600);
-    folder.file("short.ppm", "P6 4 4 255\nabc");
-    folder.file("noise.ppm", "this is not a picture");
-    folder.file("empty.ppm", "");
-    std::filesystem::create_directory(folder / "folder.ppm");
+    const test::TempFolder folder;
+    mkfifo((folder.path() / "pipe.ppm").c_str(), 0600);
+    folder.write("short.ppm", "P6 4 4 255\nabc");
+    folder.write("noise.ppm", "this is not a picture");
+    folder.write("empty.ppm", "");
+    std::filesystem::create_directory(folder.path() / "folder.ppm");
     for (const auto& [name, reason] : {std::pair{"none.ppm", "no such file"},
                                        {"pipe.ppm", "not a regular file"},
                                        {"folder.ppm", "not a regular file"},
@@ -249,26 +255,26 @@ TEST_CASE("what is no picture is a file fault that names the file and the reason
                                        {"noise.ppm", ""},
                                        {"empty.ppm", ""}}) {
         CAPTURE(name);
-        const std::string start = "cannot read picture " + (folder / name).string() + ": " + reason;
-        CHECK_THROWS_WITH_AS(read_texture(folder / name), doctest::Contains(start.c_str()), FileError);
+        const std::string start = "cannot read picture " + (folder.path() / name).string() + ": " + reason;
+        CHECK_THROWS_WITH_AS(read_texture(folder.path() / name), doctest::Contains(start.c_str()), FileError);
     }
 }
 
 TEST_CASE("textures are found in the scene's folder and nowhere else unless that is allowed")
 {
-    const ScratchFolder folder;
-    std::filesystem::create_directory(folder / "scene");
-    std::filesystem::create_directory(folder / "scene-of-others");
+    const test::TempFolder folder;
+    std::filesystem::create_directory(folder.path() / "scene");
+    std::filesystem::create_directory(folder.path() / "scene-of-others");
     const std::string pixel = "P6 1 1 255\nabc";
-    folder.file("scene/inside.ppm", pixel);
-    folder.file("scene-of-others/outside.ppm", pixel);
-    std::filesystem::create_symlink(folder / "scene-of-others/outside.ppm", folder / "scene/link.ppm");
+    folder.write("scene/inside.ppm", pixel);
+    folder.write("scene-of-others/outside.ppm", pixel);
+    std::filesystem::create_symlink(folder.path() / "scene-of-others/outside.ppm", folder.path() / "scene/link.ppm");
     Scene scene;
-    scene.folder = (folder / "scene").string();
+    scene.folder = (folder.path() / "scene").string();
     scene.textures = {"inside.ppm", "../scene/inside.ppm"};
     CHECK(read_textures(scene).size() == 2);
     for (const std::string& name : {std::string("../scene-of-others/outside.ppm"), std::string("link.ppm"),
-                                    (folder / "scene-of-others/outside.ppm").string()}) {
+                                    (folder.path() / "scene-of-others/outside.ppm").string()}) {
         CAPTURE(name);
         scene.textures = {name};
         CHECK_THROWS_WITH_AS(read_textures(scene), doctest::Contains("outside the scene's folder"), FileError);
@@ -278,12 +284,9 @@ TEST_CASE("textures are found in the scene's folder and nowhere else unless that
 
 TEST_CASE("every texture of the BART scenes is read whole")
 {
-    const char* given = std::getenv("FIRSTRAY_BART_DIR");
-    const std::filesystem::path bart = given != nullptr && *given != '\0' ? given : "../shared/bart";
-    if (!std::filesystem::is_directory(bart)) {
-        MESSAGE("skipped: no BART scenes at " << bart.string() << " (set FIRSTRAY_BART_DIR)");
-        return;
-    }
+    const auto robot = test::bart_file("robots/Robot.aff");
+    if (!robot) return;
+    const std::filesystem::path bart = robot->parent_path().parent_path();
     int read = 0;
     for (const char* scene : {"robots", "kitchen", "museum"})
         for (const auto& entry : std::filesystem::directory_iterator(bart / scene)) {
