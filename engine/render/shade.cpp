@@ -37,7 +37,7 @@ bool responds_to(const Surface& surface, const glm::dvec3& to_light)
 glm::vec3 light_term(const Surface& surface, const glm::dvec3& to_light, const glm::vec3& colour)
 {
     const Material& m = *surface.material;
-    const glm::dvec3 l = to_light / glm::length(to_light);
+    const glm::dvec3 l = to_light * (1.0 / glm::length(to_light));
     const double n_dot_l = glm::dot(surface.normal, l);
     glm::vec3 sum = m.diffuse * surface.texture * static_cast<float>(n_dot_l);
     if (m.specular != glm::vec3(0.0f)) sum += m.specular * highlight(surface, l, n_dot_l);

@@ -24,7 +24,7 @@ void place_on_triangle(const Pose& pose, const RayHit& hit, Surface& s)
     s.geometric = glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
     const double length = glm::length(s.geometric);
     // Corners that only rounding moved apart make a triangle that can be hit but has no normal here.
-    s.geometric = length > 0.0 ? s.geometric / length : -hit.direction;
+    s.geometric = length > 0.0 ? s.geometric * (1.0 / length) : -hit.direction;
     s.normal = shading_normal(pose, hit.primitive, hit.u, hit.v, s.geometric);
     for (const glm::dvec3& corner : corners) s.extent = std::max(s.extent, largest_coordinate(corner));
 }

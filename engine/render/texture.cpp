@@ -5,35 +5,36 @@
 namespace firstray {
 namespace {
 
-/// The two texels beside a coordinate and the second one's weight.
-struct Span {
-    int first, second;
-    float weight;
-};
-
-Span span_at(float coordinate, int size)
+/// The fraction of a coordinate, in [0, 1]: a tiny negative one rounds to 1, an infinite one has none and gives 0.
+float fraction(float coordinate)
 {
-    float fraction = coordinate - std::floor(coordinate);
-    if (!(fraction >= 0.0f)) fraction = 0.0f;                        // an infinite coordinate has no fraction
-    const float texel = fraction * static_cast<float>(size) - 0.5f;  // [-1/2, size - 1/2]: texel centres are integers
-    const float below = std::floor(texel);
-    const int first = static_cast<int>(below);
-    return {first < 0 ? size - 1 : first, first + 1 < size ? first + 1 : 0, texel - below};
+    const float f = coordinate - std::floor(coordinate);
+    return f >= 0.0f ? f : 0.0f;
+}
+
+glm::vec3 rgb(const std::uint8_t* texel)
+{
+    return {texel[0], texel[1], texel[2]};
 }
 
 }  // namespace
 
 glm::vec3 Texture::sample(glm::vec2 uv) const
 {
-    const Span x = span_at(uv.x, width), y = span_at(uv.y, height);
-    const auto texel = [&](int column, int row) {
-        const std::uint8_t* rgb = &pixels[3 * (static_cast<std::size_t>(row) * static_cast<std::size_t>(width) +
-                                               static_cast<std::size_t>(column))];
-        return glm::vec3(rgb[0], rgb[1], rgb[2]);
-    };
-    const glm::vec3 upper = glm::mix(texel(x.first, y.first), texel(x.second, y.first), x.weight);
-    const glm::vec3 lower = glm::mix(texel(x.first, y.second), texel(x.second, y.second), x.weight);
-    return glm::mix(upper, lower, y.weight) / 255.0f;
+    // In texels, whose centres are integers: [-1/2, size - 1/2].
+    const float x = fraction(uv.x) * static_cast<float>(width) - 0.5f;
+    const float y = fraction(uv.y) * static_cast<float>(height) - 0.5f;
+    const int column = static_cast<int>(x + 1.0f) - 1, row = static_cast<int>(y + 1.0f) - 1;  // rounded down
+    const float right_share = x - static_cast<float>(column), lower_share = y - static_cast<float>(row);
+
+    const std::size_t left = 3 * static_cast<std::size_t>(column < 0 ? width - 1 : column);
+    const std::size_t right = 3 * static_cast<std::size_t>(column + 1 < width ? column + 1 : 0);
+    const std::size_t pitch = 3 * static_cast<std::size_t>(width);
+    const std::uint8_t* upper = &pixels[pitch * static_cast<std::size_t>(row < 0 ? height - 1 : row)];
+    const std::uint8_t* lower = &pixels[pitch * static_cast<std::size_t>(row + 1 < height ? row + 1 : 0)];
+    return glm::mix(glm::mix(rgb(upper + left), rgb(upper + right), right_share),
+                    glm::mix(rgb(lower + left), rgb(lower + right), right_share), lower_share) *
+           (1.0f / 255.0f);
 }
 
 }  // namespace firstray
