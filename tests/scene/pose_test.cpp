@@ -2,7 +2,9 @@
 
 #include <doctest/doctest.h>
 
+#include <cmath>
 #include <cstring>
+#include <map>
 
 #include "tests/support/bart.h"
 #include "tests/support/scene_files.h"
@@ -55,6 +57,17 @@ DAabb box_of_deforming(const Pose& p)
     return box;
 }
 
+/// A BART scene, read once for all tests; null where it is missing.
+const Scene* bart_scene(const std::string& name)
+{
+    static std::map<std::string, Scene> scenes;
+    const auto file = test::bart_file(name);
+    if (!file) return nullptr;
+    const auto [entry, is_new] = scenes.try_emplace(name);
+    if (is_new) entry->second = read_aff(*file);
+    return &entry->second;
+}
+
 constexpr const char* triangle = "p 3 0 0 0 1 0 0 0 1 0\n";
 
 }  // namespace
@@ -77,12 +90,11 @@ TEST_CASE("BART's cameras stand and look where the published animations have the
         {"museum/museum5.aff", 75, {3.000, 2.403, -0.977}, {-1.000, -0.001, -0.008}},
     };
     for (const Row& row : rows) {
-        const auto file = test::bart_file(row.file);
-        if (!file) return;
+        const Scene* scene = bart_scene(row.file);
+        if (!scene) return;
         CAPTURE(row.file);
         CAPTURE(row.frame);
-        const Scene scene = read_aff(*file);
-        const CameraPose camera = pose(scene, scene.time_of(row.frame)).camera;
+        const CameraPose camera = pose(*scene, scene->time_of(row.frame)).camera;
         for (int axis = 0; axis < 3; ++axis) {
             CHECK(std::abs(camera.eye[axis] - row.eye[axis]) < 5.1e-4);
             CHECK(std::abs(camera.forward[axis] - row.direction[axis]) < 5.1e-4);
@@ -113,13 +125,12 @@ TEST_CASE("BART's moving things are where the published animations have them")
         {"museum/museum5.aff", "", 299, {-0.75, 1.5, -0.6}, {1.25, 4.4, 0.55}, 1e-4},
     };
     for (const Row& row : rows) {
-        const auto file = test::bart_file(row.file);
-        if (!file) return;
+        const Scene* scene = bart_scene(row.file);
+        if (!scene) return;
         CAPTURE(row.file);
         CAPTURE(row.node);
         CAPTURE(row.frame);
-        const Scene scene = read_aff(*file);
-        const Pose p = pose(scene, scene.time_of(row.frame));
+        const Pose p = pose(*scene, scene->time_of(row.frame));
         const DAabb box = *row.node ? box_below(p, row.node) : box_of_deforming(p);
         for (int axis = 0; axis < 3; ++axis) {
             CHECK(std::abs(box.lo[axis] - row.lo[axis]) < row.tolerance);
@@ -138,14 +149,13 @@ TEST_CASE("BART's scenes have the published bounds in frame 0")
                         {"kitchen/kitchen.aff", {-2, -1.1, -3.75}, {6, 2.9, 4.33}},
                         {"museum/museum5.aff", {-5, -1.068, -9.938}, {5, 5, 5}}};
     for (const Row& row : rows) {
-        const auto file = test::bart_file(row.file);
-        if (!file) return;
-        const Scene scene = read_aff(*file);
-        const DAabb box = bounds(pose(scene, scene.start));
+        const Scene* scene = bart_scene(row.file);
+        if (!scene) return;
+        const DAabb box = bounds(pose(*scene, scene->start));
         CAPTURE(row.file);
         CHECK(glm::length(box.lo - row.lo) < 1e-3);
         CHECK(glm::length(box.hi - row.hi) < 1e-3);
-        CHECK(scene.origin == glm::dvec3(0.0));
+        CHECK(scene->origin == glm::dvec3(0.0));
     }
 }
 
