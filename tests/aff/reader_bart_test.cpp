@@ -56,9 +56,9 @@ Tracks count_tracks(const Scene& scene)
 void check_statements(const Scene& scene, const std::vector<std::pair<std::string, std::uint64_t>>& expected)
 {
     CHECK(scene.census.statements.size() == expected.size());
-    for (const auto& [statement, times] : expected) {
-        CAPTURE(statement);
-        CHECK(scene.census.count(statement) == times);
+    for (const auto& row : expected) {
+        CAPTURE(row.first);
+        CHECK(scene.census.count(row.first) == row.second);
     }
 }
 

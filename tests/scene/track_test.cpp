@@ -209,6 +209,19 @@ TEST_CASE("rotation axes that are too long give rotations, not NaNs")
     }
 }
 
+TEST_CASE("a key that is turned to the other sign goes on with an axis of unit length")
+{
+    const auto track = [](double length) {
+        std::vector<Key> keys;
+        for (const double angle : {0.0, 10.0, 390.0, 400.0, 430.0})
+            keys.push_back(key(double(keys.size()), {0, 0, 1}, angle));
+        keys[2].value.z = length;  // 390 degrees have the opposite sign of 10
+        return RotationTrack(keys);
+    };
+    CHECK(degrees_about_z(track(1.2).at(2.5)) == doctest::Approx(degrees_about_z(track(1.0).at(2.5))).epsilon(1e-12));
+    CHECK(std::abs(degrees_about_z(track(1.2).at(1.5)) - degrees_about_z(track(1.0).at(1.5))) > 0.1);
+}
+
 TEST_CASE("missing tracks are the identity")
 {
     const Transform t = Animation{}.at(3.0);
