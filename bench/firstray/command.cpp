@@ -27,41 +27,51 @@ Examples:
 constexpr const char* main_footer = R"(firstray COMMAND --help tells the options of a command.
 Exit codes: 0 done, 1 failed while rendering, 2 usage, 3 bad scene, 4 file trouble, 5 over a limit.)";
 
+/// Of an option given twice the last one counts: scripts put the options of their caller behind their own.
+/// value  stands for the option's value in --help
+template <typename T>
+CLI::Option* add(CLI::App& app, const char* name, T& target, const char* value, const std::string& text)
+{
+    return app.add_option(name, target, text)->option_text(value)->take_last();
+}
+
+void add_int(CLI::App& app, const char* name, int& target, int low, int high, const std::string& text)
+{
+    add(app, name, target, "N", text)->check(CLI::Range(low, high));
+}
+
 void add_scene(CLI::App& app, SceneChoice& scene)
 {
-    app.add_option("SCENE", scene.file, "scene file (.aff)");
+    add(app, "SCENE", scene.file, " ", "scene file (.aff)")->required();
     app.add_flag("--allow-outside", scene.allow_outside, "let includes and textures lie outside the scene's folder");
 }
 
 void add_search(CLI::App& app, SearchChoice& search)
 {
-    app.add_option("--strategy", search.strategy, "structure: " + strategy_names())->capture_default_str();
-    app.add_option("--precision", search.precision, "fast, robust or double")->capture_default_str();
-    app.add_option("--threads", search.threads, "0: all there are")->check(CLI::Range(0, 1024))->capture_default_str();
-    app.add_option("--grid-density", search.grid_density, "cells per primitive; 0: the default")
+    add(app, "--strategy", search.strategy, "NAME", "structure: " + strategy_names() + "; default grid");
+    add(app, "--precision", search.precision, "NAME", "fast, robust or double; default robust");
+    add_int(app, "--threads", search.threads, 0, 1024, "threads that work at once; default 0, all there are");
+    add(app, "--grid-density", search.grid_density, "X", "cells per primitive; default 0, the strategy's own")
         ->check(CLI::Range(0.0, 1000.0));
-    app.add_option("--max-list", search.max_list, "primitives in a voxel before it is split; 0: the default")
-        ->check(CLI::Range(0, 1 << 20));
-    app.add_option("--grid-depth", search.grid_depth, "levels of grids")
-        ->check(CLI::Range(1, 8))
-        ->capture_default_str();
+    add_int(app, "--max-list", search.max_list, 0, 1 << 20,
+            "primitives in a voxel before it is split; default 0, the strategy's own");
+    add_int(app, "--grid-depth", search.grid_depth, 1, 8,
+            "levels of grids; default " + std::to_string(search.grid_depth));
 }
 
 void add_render(CLI::App& app, RenderJob& job)
 {
     add_scene(app, job.scene);
-    app.add_option("--frames", job.frames, "e.g. 12 or 0-799:10 or 0,5,10-20")->capture_default_str();
-    app.add_option("--size", job.size, "WIDTHxHEIGHT; default: the scene's");
-    app.add_option("--depth", job.depth, "reflections and refractions in a row")
-        ->check(CLI::Range(0, 64))
-        ->capture_default_str();
-    app.add_option("--spp", job.samples, "samples per pixel")->check(CLI::Range(1, 4096))->capture_default_str();
+    add(app, "--frames", job.frames, "LIST", "e.g. 12 or 0-799:10 or 0,5,10-20; default 0");
+    add(app, "--size", job.size, "WxH", "picture's size; default: the scene's");
+    add_int(app, "--depth", job.depth, 0, 64, "reflections and refractions in a row; default 4");
+    add_int(app, "--spp", job.samples, 1, 4096, "samples per pixel; default 1");
     add_search(app, job.search);
-    app.add_option("--aov", job.aovs, "layers: distance,primitive,group,cells,tests,time");
-    app.add_option("--output", job.output, "a run of # is the frame; default: SCENE.####.png here (.exr with --aov)");
-    app.add_option("--stats", job.stats, "write times, rays and structure of every frame as JSON");
+    add(app, "--aov", job.aovs, "LIST", "layers of an EXR: distance,primitive,group,cells,tests,time");
+    add(app, "--output", job.output, "NAME", "a run of # is the frame; default SCENE.####.png here, .exr with --aov");
+    add(app, "--stats", job.stats, "FILE", "write times, rays and structure of every frame as JSON");
     app.add_flag("--table", job.table, "print a line of times per frame to standard output");
-    app.add_option("--progress", job.progress, "auto, always or never")->capture_default_str();
+    add(app, "--progress", job.progress, "WHEN", "auto, always or never; default auto");
     app.footer(render_examples);
 }
 
@@ -75,9 +85,9 @@ void add_info(CLI::App& app, InfoJob& job)
 void add_trace(CLI::App& app, TraceJob& job)
 {
     add_scene(app, job.scene);
-    app.add_option("--frame", job.frame, "the scene's frame, from 0; required");
-    app.add_option("--rays", job.rays, "file of rays, or - for standard input; required");
-    app.add_option("--output", job.output, "file of answers; default: standard output");
+    add(app, "--frame", job.frame, "N", "the scene's frame, from 0; required");
+    add(app, "--rays", job.rays, "FILE", "rays, - is standard input; required");
+    add(app, "--output", job.output, "FILE", "answers; default: standard output");
     add_search(app, job.search);
     app.footer(trace_examples);
 }
@@ -154,7 +164,6 @@ void dispatch(std::span<const std::string> arguments, Streams streams)
     const CLI::App& command = *app.get_subcommands().front();
     refuse_extras(app);
     refuse_extras(command);
-    require(command, "SCENE");
     if (command.get_name() == "render") return render_scene(render, streams);
     if (command.get_name() == "info") return print_info(info, streams);
     require(command, "--frame");

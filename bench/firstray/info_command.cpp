@@ -132,8 +132,8 @@ std::string table(const Json& info)
     text += row("origin", vector_text(info["origin"]));
     text += row("animation", fmt::format("{} frames, {} s to {} s", animation["frames"].dump(),
                                          animation["start"].dump(), animation["end"].dump()));
-    text += row("camera", fmt::format("eye {}, forward {}, {} degrees, {}", vector_text(camera["eye"]),
-                                      vector_text(camera["forward"]), camera["angle"].dump(),
+    text += row("camera", fmt::format("eye {}, forward {}, {:.6g} degrees, {}", vector_text(camera["eye"]),
+                                      vector_text(camera["forward"]), camera["angle"].get<double>(),
                                       camera["moves"].get<bool>() ? "moves" : "stands"));
     text += row("resolution", fmt::format("{}x{}", info["resolution"][0].dump(), info["resolution"][1].dump()));
     return text + statement_rows(info["statements"]) + texture_rows(info["textures"]);

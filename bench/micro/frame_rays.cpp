@@ -1,6 +1,5 @@
 #include "bench/micro/frame_rays.h"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -8,38 +7,23 @@
 namespace firstray {
 namespace {
 
-constexpr int tile_size = 32, block_size = 4;  // pixels
-constexpr float shadow_end = 1.0f - 1e-4f;     // stops short of the surface that is lit
+constexpr float shadow_end = 1.0f - 1e-4f;  // stops short of the surface that is lit
 constexpr float nan = std::numeric_limits<float>::quiet_NaN();
-
-static_assert(tile_size * tile_size <= RayTile<float>::capacity);
-
-/// Pixel of a lane in a full tile, relative to the tile's corner: blocks row by row, pixels of a block row by row.
-glm::ivec2 pixel_of_lane(int lane)
-{
-    constexpr int block_pixels = block_size * block_size, blocks_across = tile_size / block_size;
-    const int block = lane / block_pixels, inside = lane % block_pixels;
-    return {block % blocks_across * block_size + inside % block_size,
-            block / blocks_across * block_size + inside / block_size};
-}
 
 }  // namespace
 
 FrameRays::FrameRays(Pose pose, int width, int height, RayMask shadow_mask)
-    : pose_(std::move(pose)),
-      width_(width),
-      height_(height),
-      tiles_across_((width + tile_size - 1) / tile_size),
-      shadow_mask_(shadow_mask),
-      pixels_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height)),
-      first_{0},
-      hits_(pixels_, glm::vec3(nan))
+    : pose_(std::move(pose)), camera_(camera_rays(pose_, width, height)), shadow_mask_(shadow_mask), first_{0}
 {
-    for (int y = 0; y < height; y += tile_size)
-        for (int x = 0; x < width; x += tile_size) {
-            const int pixels = std::min(tile_size, width - x) * std::min(tile_size, height - y);
-            first_.push_back(first_.back() + static_cast<std::size_t>(pixels));
+    const glm::ivec2 tiles = tile_counts(width, height);
+    std::vector<glm::ivec2> tile;
+    for (int y = 0; y < tiles.y; ++y)
+        for (int x = 0; x < tiles.x; ++x) {
+            tile_pixels({x, y}, width, height, tile);
+            pixels_.insert(pixels_.end(), tile.begin(), tile.end());
+            first_.push_back(pixels_.size());
         }
+    hits_.assign(pixels_.size(), glm::vec3(nan));
 }
 
 std::size_t FrameRays::batches(Phase phase) const
@@ -57,23 +41,8 @@ void FrameRays::load(Phase phase, std::size_t batch, RayTile<float>& tile) const
 
 void FrameRays::load_primary(std::size_t tile_index, RayTile<float>& tile) const
 {
-    const View& view = pose_.scene->view;
-    const CameraPose& camera = pose_.camera;
-    const double tangent = std::tan(glm::radians(view.angle) / 2.0);
-    const int tile_number = static_cast<int>(tile_index);
-    const glm::ivec2 corner = tile_size * glm::ivec2(tile_number % tiles_across_, tile_number / tiles_across_);
-
-    tile.count = 0;
-    tile.common_apex = true;
-    tile.apex = glm::vec3(camera.eye);
-    tile.mask = RayMask::all;
-    for (int lane = 0; lane < tile_size * tile_size; ++lane) {
-        const glm::ivec2 pixel = corner + pixel_of_lane(lane);
-        if (pixel.x >= width_ || pixel.y >= height_) continue;
-        const double x = (2.0 * (pixel.x + 0.5) - width_) / height_, y = 1.0 - 2.0 * (pixel.y + 0.5) / height_;
-        tile.set_direction(tile.count, camera.forward + tangent * (x * camera.right + y * camera.up));
-        tile.set_interval(tile.count++, static_cast<float>(view.hither));  // t is the distance along the view axis
-    }
+    const std::size_t first = first_[tile_index], count = first_[tile_index + 1] - first;
+    aim(camera_, std::span(pixels_).subspan(first, count), glm::dvec2(0.5), tile);
 }
 
 void FrameRays::load_shadow(std::size_t tile_index, const glm::dvec3& light, RayTile<float>& tile) const

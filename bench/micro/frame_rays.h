@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "engine/core/ray_tile.h"
+#include "engine/render/camera_rays.h"
 #include "engine/scene/pose.h"
 
 namespace firstray {
@@ -28,18 +29,19 @@ public:
     /// Fills `tile` with a batch's rays, no ray at all where a light has nothing to see.
     /// phase  primary or shadow
     void load(Phase phase, std::size_t batch, RayTile<float>& tile) const;
-    std::size_t count(Phase phase) const { return phase == Phase::primary ? pixels_ : shadow_rays_; }
+    std::size_t count(Phase phase) const { return phase == Phase::primary ? pixels_.size() : shadow_rays_; }
 
 private:
     void load_primary(std::size_t tile_index, RayTile<float>& tile) const;
     void load_shadow(std::size_t tile_index, const glm::dvec3& light, RayTile<float>& tile) const;
 
     Pose pose_;
-    int width_, height_, tiles_across_;
+    CameraRays camera_;
     RayMask shadow_mask_;
-    std::size_t pixels_ = 0, shadow_rays_ = 0;
-    std::vector<std::size_t> first_;  // by tile: how many pixels the tiles before it have; one entry more than tiles
-    std::vector<glm::vec3> hits_;     // by pixel in tile order, root system; NaN where nothing is hit
+    std::size_t shadow_rays_ = 0;
+    std::vector<glm::ivec2> pixels_;  // tile by tile
+    std::vector<std::size_t> first_;  // by tile: where its pixels begin; one entry more than tiles
+    std::vector<glm::vec3> hits_;     // by pixel, root system; NaN where nothing is hit
 };
 
 }  // namespace firstray

@@ -1,5 +1,6 @@
 #include "bench/micro/measurement.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <limits>
@@ -138,12 +139,20 @@ void time_round(std::vector<Contender>& contenders, const std::vector<FrameRays>
         }
 }
 
+/// What the renderer asks for is opaque primitives only where there are others.
+RayMask shadow_mask(const Scene& scene, RayMask wanted)
+{
+    const auto transmits = [&](const Part& part) { return scene.materials[part.material].transmits(); };
+    return std::any_of(scene.parts.begin(), scene.parts.end(), transmits) ? wanted : RayMask::all;
+}
+
 std::vector<FrameRays> frames_of(const Scene& scene, const MeasurePlan& plan)
 {
     std::vector<FrameRays> frames;
     for (int i = 0; i < plan.frames; ++i) {
         const int frame = static_cast<int>(std::int64_t{i} * scene.frames / plan.frames);
-        frames.emplace_back(pose(scene, scene.time_of(frame)), plan.width, plan.height, plan.shadow_mask);
+        frames.emplace_back(pose(scene, scene.time_of(frame)), plan.width, plan.height,
+                            shadow_mask(scene, plan.shadow_mask));
     }
     return frames;
 }

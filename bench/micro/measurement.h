@@ -14,7 +14,7 @@ struct MeasurePlan {
     int frames = 10;  ///< spread evenly from the first on: 0, n/10, 2n/10 ...
     int rounds = 5;   ///< how often all strategies go through all frames
     int width = 800, height = 592;
-    RayMask shadow_mask = RayMask::all;
+    RayMask shadow_mask = RayMask::opaque;  ///< as the renderer asks; taken as `all` where nothing transmits
     Precision precision = Precision::robust;
     const StrategyEntry* reference = nullptr;  ///< answers are checked against its; its hits make the shadow rays
     std::vector<const StrategyEntry*> contenders;

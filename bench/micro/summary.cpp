@@ -35,7 +35,7 @@ void write_line(std::ostream& out, const Measured& base, const Measured& measure
     out << format("  %-18s", std::string(measured.entry->name).c_str());
     for (const ReportedPart& part : parts) {
         const Ratio ratio = ratio_to(base, measured, part);
-        out << format(" %9.1f ms x%5.2f [%5.2f %5.2f]", 1e3 * typical_seconds(measured, part), ratio.median,
+        out << format(" %9.1f ms x%6.3f [%6.3f %6.3f]", 1e3 * typical_seconds(measured, part), ratio.median,
                       ratio.least, ratio.most);
     }
     out << format(" %9.1f\n", measured.agreement.per_million());
@@ -105,7 +105,7 @@ void write_table(std::ostream& out, std::string_view scene, const Measurement& m
     out << "  x update: this / " << base << "; x otherwise: " << base << " / this, so above 1 is faster; "
         << "median [least most] of the rounds; differ: rays per million unlike the reference\n";
     out << format("  %-18s", "strategy");
-    for (const ReportedPart& part : parts) out << format(" %33s", std::string(part.name).c_str());
+    for (const ReportedPart& part : parts) out << format(" %35s", std::string(part.name).c_str());
     out << format(" %9s\n", "differ");
     for (const Measured& measured : measurement.strategies)
         if (measured.fault.empty())

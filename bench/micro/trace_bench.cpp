@@ -18,14 +18,20 @@ namespace {
 
 constexpr const char* usage =
     "trace_bench [--scene=FILE]... [--strategies=a,b] [--base=embree] [--reference=NAME] [--rounds=5] [--frames=10]\n"
-    "            [--size=800x592] [--precision=robust|fast] [--shadow-mask=all|opaque] [Google Benchmark's own flags]\n"
+    "            [--size=800x592] [--precision=robust|fast] [--shadow-mask=opaque|all] [Google Benchmark's own flags]\n"
     "Default scenes: BART's, found in the folder that FIRSTRAY_BART_DIR names. Default strategies: all but `list`.\n"
+    "Shadow rays look at opaque primitives alone, as the renderer's do, or with --shadow-mask=all at all.\n"
     "The reference, whose answers the others must give, is by default the first strategy of our own.\n";
+
+struct NamedScene {
+    std::string name;
+    std::filesystem::path file;
+};
 
 struct Settings {
     MeasurePlan plan;
     std::string base = "embree";
-    std::vector<std::filesystem::path> scenes;
+    std::vector<NamedScene> scenes;
 };
 
 [[noreturn]] void refuse(const std::string& message)
@@ -81,7 +87,7 @@ bool apply(std::string_view flag, std::string_view value, Settings& settings)
 {
     MeasurePlan& plan = settings.plan;
     if (flag == "--scene")
-        settings.scenes.emplace_back(value);
+        settings.scenes.push_back({std::filesystem::path(value).stem().string(), value});
     else if (flag == "--base")
         settings.base = entry_of(value)->name;
     else if (flag == "--reference")
@@ -104,16 +110,18 @@ bool apply(std::string_view flag, std::string_view value, Settings& settings)
 }
 
 /// BART's scenes that are there; says on stderr which are not.
-std::vector<std::filesystem::path> bart_scenes()
+std::vector<NamedScene> bart_scenes()
 {
+    constexpr std::pair<const char*, const char*> scenes[] = {
+        {"robots", "robots/Robot.aff"}, {"kitchen", "kitchen/kitchen.aff"}, {"museum", "museum/museum5.aff"}};
     const char* variable = std::getenv("FIRSTRAY_BART_DIR");
     const std::filesystem::path folder = variable && *variable ? variable : FIRSTRAY_BART_DIR;
-    std::vector<std::filesystem::path> found;
-    for (const char* file : {"robots/Robot.aff", "kitchen/kitchen.aff", "museum/museum5.aff"})
+    std::vector<NamedScene> found;
+    for (const auto& [name, file] : scenes)
         if (std::filesystem::exists(folder / file))
-            found.push_back(folder / file);
+            found.push_back({name, folder / file});
         else
-            std::cerr << "trace_bench: skipped: no file " << (folder / file).string() << "\n";
+            std::cerr << "trace_bench: skipped " << name << ": no file " << (folder / file).string() << "\n";
     return found;
 }
 
@@ -138,6 +146,7 @@ Settings read_flags(int& argc, char** argv)
     int kept = 1;
     for (int i = 1; i < argc; ++i) {
         const std::string_view argument = argv[i];
+        if (argument == "--help") std::cout << usage << "\n";  // Google Benchmark adds its own and leaves
         const std::size_t equals = argument.find('=');
         const std::string_view value = equals == argument.npos ? "" : argument.substr(equals + 1);
         if (!apply(argument.substr(0, equals), value, settings)) argv[kept++] = argv[i];
@@ -150,18 +159,15 @@ Settings read_flags(int& argc, char** argv)
 /// A scene's measurement, made when the first benchmark asks for it (so that filtered scenes cost nothing).
 class SceneRun {
 public:
-    SceneRun(std::filesystem::path file, const Settings& settings)
-        : file_(std::move(file)), name_(file_.parent_path().filename().string()), settings_(settings)
-    {
-        if (name_.empty() || name_ == ".") name_ = file_.stem().string();
-    }
-    const std::string& name() const { return name_; }
+    /// settings  must outlive the run
+    SceneRun(NamedScene scene, const Settings& settings) : scene_(std::move(scene)), settings_(settings) {}
+    const std::string& name() const { return scene_.name; }
 
     const Measurement& measurement()
     {
         if (!measurement_) {
-            std::cerr << "trace_bench: measuring " << file_.string() << "\n";
-            const Scene scene = read_aff(file_);
+            std::cerr << "trace_bench: measuring " << scene_.file.string() << "\n";
+            const Scene scene = read_aff(scene_.file);
             measurement_ = measure(scene, settings_.plan);
         }
         return *measurement_;
@@ -179,7 +185,7 @@ public:
 
     void write_table_if_measured(std::ostream& out) const
     {
-        if (measurement_) write_table(out, name_, *measurement_, settings_.base);
+        if (measurement_) write_table(out, scene_.name, *measurement_, settings_.base);
     }
 
 private:
@@ -197,8 +203,7 @@ private:
         state.counters["MB"] = 1e-6 * static_cast<double>(measured.structure.bytes);
     }
 
-    std::filesystem::path file_;
-    std::string name_;
+    NamedScene scene_;
     const Settings& settings_;
     std::optional<Measurement> measurement_;
 };
@@ -216,14 +221,33 @@ void register_benchmarks(SceneRun& run, const MeasurePlan& plan)
         }
 }
 
+/// So that a report says by itself how its numbers came about.
+void describe(const Settings& settings)
+{
+    const MeasurePlan& plan = settings.plan;
+    benchmark::AddCustomContext("threads", "1");
+    benchmark::AddCustomContext("frames", std::to_string(plan.frames));
+    benchmark::AddCustomContext("rounds", std::to_string(plan.rounds));
+    benchmark::AddCustomContext("picture", std::to_string(plan.width) + "x" + std::to_string(plan.height));
+    benchmark::AddCustomContext("precision", plan.precision == Precision::fast ? "fast" : "robust");
+    benchmark::AddCustomContext("shadow_mask", plan.shadow_mask == RayMask::all ? "all" : "opaque");
+    benchmark::AddCustomContext("ratios_to", settings.base);
+    benchmark::AddCustomContext("reference", std::string(plan.reference->name));
+}
+
 int run_all(int argc, char** argv)
 {
     const Settings settings = read_flags(argc, argv);
     benchmark::Initialize(&argc, argv);
+    if (settings.scenes.empty()) {
+        std::cerr << "trace_bench: no scene to measure\n";
+        return 0;
+    }
+    describe(settings);
     if (benchmark::ReportUnrecognizedArguments(argc, argv)) refuse("unknown flag");
     std::vector<std::unique_ptr<SceneRun>> runs;
-    for (const std::filesystem::path& file : settings.scenes) {
-        runs.push_back(std::make_unique<SceneRun>(file, settings));
+    for (const NamedScene& scene : settings.scenes) {
+        runs.push_back(std::make_unique<SceneRun>(scene, settings));
         register_benchmarks(*runs.back(), settings.plan);
     }
     benchmark::RunSpecifiedBenchmarks();

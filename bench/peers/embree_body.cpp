@@ -111,7 +111,8 @@ void Body::place_quadrics(const Scene& scene, std::span<const Transform> body_fr
             const PrimitiveId id = part.primitives[i];
             const Group& group = scene.group(id);
             const Quadric& quadric = scene.quadrics[id - group.first - group.triangles + group.first_quadric];
-            part.quadrics[i] = place(quadric, body_from_group[part.owners[i]]);
+            part.quadrics[i] =
+                place_quadric(quadric, body_from_group[part.owners[i]], id, scene.material(id).transmits());
         }
 }
 

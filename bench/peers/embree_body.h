@@ -43,9 +43,9 @@ private:
     struct Part {
         GeometryHandle geometry;  // null where it is not attached
         std::vector<PrimitiveId> primitives;
-        std::vector<glm::uvec3> indices;      // triangles: into vertices_
-        std::vector<PlacedQuadric> quadrics;  // quadrics
-        std::vector<std::uint32_t> owners;    // quadrics: which of the listed groups has each
+        std::vector<glm::uvec3> indices;    // triangles: into vertices_
+        std::vector<RootQuadric> quadrics;  // quadrics
+        std::vector<std::uint32_t> owners;  // quadrics: which of the listed groups has each
     };
     void clear();
     void list_group(const Scene& scene, const Group& group, std::uint32_t owner, std::uint32_t first_vertex);

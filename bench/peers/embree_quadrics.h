@@ -2,22 +2,13 @@
 #include <vector>
 
 #include "bench/peers/embree_device.h"
-#include "engine/scene/scene.h"
+#include "engine/primitive/quadric.h"
 
 namespace firstray::peers {
 
-/// A quadric in the system of the Embree scene that holds it ("body").
-struct PlacedQuadric {
-    Quadric::Kind kind = Quadric::Kind::sphere;
-    bool inside_only = false;
-    double r0 = 1.0, r1 = 1.0;
-    Transform body_from_quadric, quadric_from_body;
-};
-
-PlacedQuadric place(const Quadric& quadric, const Transform& body_from_group);
-
-/// Makes `geometry` a user geometry over quadrics, intersected in double in their canonical systems.
-/// quadrics  must stay where they are while the geometry is in use
-void set_quadrics(RTCGeometry geometry, const std::vector<PlacedQuadric>& quadrics);
+/// Makes `geometry` a user geometry over quadrics, intersected in double by the engine's own test.
+/// quadrics  placed in the system of the Embree scene, which need not be the root's; must stay where they are while the
+///           geometry is in use
+void set_quadrics(RTCGeometry geometry, const std::vector<RootQuadric>& quadrics);
 
 }  // namespace firstray::peers

@@ -1,6 +1,7 @@
 #pragma once
 #include <bit>
-#include <cmath>
+#include <cstdint>
+#include <limits>
 
 #include "bench/peers/embree_body.h"
 #include "engine/core/ray_tile.h"
@@ -21,7 +22,18 @@ inline bool is_searchable(const glm::vec3& origin, const glm::vec3& direction, f
     return not_finite == glm::vec3(0.0f) && direction != glm::vec3(0.0f) && t_min < t_max && t_max > 0.0f;
 }
 
-/// Loads lane i. Embree's interval is (tnear, tfar] with tnear >= 0, ours is open: hence the next smaller float.
+/// The closed interval of floats inside the open (t_min, t_max), t_max > 0; Embree wants it to begin at 0 or later.
+/// A renderer that goes on behind a hit counts on it: a hit at t_min, found again, would be found for ever.
+inline void set_interval(RTCRay& ray, float t_min, float t_max)
+{
+    const auto neighbour = [](float t, int step) {  // of a positive float, in order of size
+        return std::bit_cast<float>(std::bit_cast<std::int32_t>(t) + step);
+    };
+    ray.tnear = t_min > 0.0f ? neighbour(t_min, +1) : std::numeric_limits<float>::min();
+    ray.tfar = neighbour(t_max, -1);
+}
+
+/// Loads lane i.
 /// returns  false where the lane meets nothing, whatever the scene
 inline bool load(const RayTile<float>& rays, int i, unsigned mask, RTCRay& ray)
 {
@@ -30,8 +42,7 @@ inline bool load(const RayTile<float>& rays, int i, unsigned mask, RTCRay& ray)
     if (!is_searchable(origin, direction, rays.t_min[lane], rays.t_max[lane])) return false;
     ray.org_x = origin.x, ray.org_y = origin.y, ray.org_z = origin.z;
     ray.dir_x = direction.x, ray.dir_y = direction.y, ray.dir_z = direction.z;
-    ray.tnear = std::fmax(rays.t_min[lane], 0.0f);
-    ray.tfar = std::bit_cast<float>(std::bit_cast<std::uint32_t>(rays.t_max[lane]) - 1);  // t_max > 0
+    set_interval(ray, rays.t_min[lane], rays.t_max[lane]);
     ray.time = 0.0f;
     ray.mask = mask;
     ray.id = ray.flags = 0;

@@ -32,6 +32,11 @@ bool ends_word(char c)
     return is_space(c) || is_comment(c) || is_brace(c);
 }
 
+std::string shown(const FilePlace& at)
+{
+    return at.file + ":" + std::to_string(at.line) + ":" + std::to_string(at.column);
+}
+
 }  // namespace
 
 std::string quote(std::string_view text)
@@ -181,19 +186,16 @@ FilePlace Lexer::place(std::size_t position) const
             1 + static_cast<int>(position - line_begin)};
 }
 
-std::string Lexer::place_prefix() const
+Mention Lexer::mention() const
 {
-    const FilePlace at = place(token_);
-    return at.file + ":" + std::to_string(at.line) + ":" + std::to_string(at.column) + ": ";
+    return {shown(place(token_)) + ": ", include_chain()};
 }
 
 std::string Lexer::include_chain() const
 {
     std::string chain;
-    for (const Lexer* lexer = includer_; lexer; lexer = lexer->includer_) {
-        const FilePlace at = lexer->place(lexer->statement_);
-        chain += "\n  included from " + at.file + ":" + std::to_string(at.line) + ":" + std::to_string(at.column);
-    }
+    for (const Lexer* lexer = includer_; lexer; lexer = lexer->includer_)
+        chain += "\n  included from " + shown(lexer->place(lexer->statement_));
     return chain;
 }
 
@@ -215,8 +217,9 @@ void Lexer::statement_fault(const std::string& read, const std::string& expected
 
 void Lexer::over_limit(const std::string& what, std::uint64_t limit, const char* name) const
 {
-    throw LimitError(place_prefix() + "more than " + std::to_string(limit) + " " + what + " (limit: " + name + ")" +
-                     include_chain());
+    const Mention here = mention();
+    throw LimitError(here.place + "more than " + std::to_string(limit) + " " + what + " (limit: " + name + ")" +
+                     here.chain);
 }
 
 }  // namespace firstray

@@ -55,7 +55,7 @@ public:
     /// Reports the statement that began last.
     [[noreturn]] void statement_fault(const std::string& read, const std::string& expected) const;
     [[noreturn]] void over_limit(const std::string& what, std::uint64_t limit, const char* name) const;
-    std::string place_prefix() const;  ///< "file:line:column: " of the last token
+    Mention mention() const;  ///< of a file named by the last token
 
 private:
     template <typename Real>

@@ -19,6 +19,12 @@ struct SourceFile {
     std::string text;
 };
 
+/// What a message about a file says before and after, when a scene file names that file.
+struct Mention {
+    std::string place;  ///< "file:line:column: ", or empty
+    std::string chain;  ///< "\n  included from ..." lines, or empty
+};
+
 /// Finds the files of a scene, which all lie in (or below) the main file's folder, and reads each of them once.
 class SceneFolder {
 public:
@@ -39,7 +45,7 @@ public:
 private:
     std::filesystem::path find(const std::string& name, const Lexer& in) const;
     const SourceFile& read(const std::filesystem::path& shown, const std::filesystem::path& canonical,
-                           const std::string& place);
+                           const Mention& mention);
 
     ReadLimits limits_;
     std::filesystem::path folder_, canonical_folder_;

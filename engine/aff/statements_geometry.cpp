@@ -16,15 +16,6 @@ glm::dmat3 basis_around(const glm::dvec3& z)
     return {{1.0 + sign * z.x * z.x * a, sign * b, -sign * z.x}, {b, sign + z.y * z.y * a, -z.y}, z};
 }
 
-glm::dmat3 rotation_about(const glm::dvec3& unit_axis, double degrees)
-{
-    const double angle = glm::radians(degrees), c = std::cos(angle), s = std::sin(angle);
-    const glm::dvec3 a = unit_axis, b = (1.0 - c) * unit_axis;
-    return {{c + a.x * b.x, a.x * b.y + s * a.z, a.x * b.z - s * a.y},
-            {a.y * b.x - s * a.z, c + a.y * b.y, a.y * b.z + s * a.x},
-            {a.z * b.x + s * a.y, a.z * b.y - s * a.x, c + a.z * b.z}};
-}
-
 std::uint32_t read_texture(Reading& r)
 {
     const std::string name = r.in.word("a texture's file name");
@@ -93,7 +84,7 @@ Transform read_transform(Lexer& in)
     const double angle = in.number();
     Transform result;
     if (glm::length(axis) > 0.0)
-        result.linear = rotation_about(glm::normalize(axis), angle);
+        result.linear = rotation_about(glm::normalize(axis), glm::radians(angle));
     else if (angle != 0.0)
         in.statement_fault("rotation about the axis 0 0 0", "an axis other than zero");
     result.offset = in.point();

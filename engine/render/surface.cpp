@@ -1,6 +1,7 @@
 #include "engine/render/surface.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace firstray {
 namespace {
@@ -29,11 +30,23 @@ void place_on_triangle(const Pose& pose, const RayHit& hit, Surface& s)
     for (const glm::dvec3& corner : corners) s.extent = std::max(s.extent, largest_coordinate(corner));
 }
 
+/// Likewise, the point is pulled onto the quadric along its radius: off a small sphere far away, t is worth little.
 void place_on_quadric(const Pose& pose, const RayHit& hit, Surface& s)
 {
-    s.point = hit.origin + hit.t * hit.direction;
+    const Scene& scene = *pose.scene;
+    const Group& group = scene.group(hit.primitive);
+    const Quadric& quadric = scene.quadrics[group.first_quadric + (hit.primitive - group.first - group.triangles)];
+    const Transform root_from_quadric = pose.root_from_node[group.node] * quadric.group_from_quadric;
+    glm::dvec3 p = inverse(root_from_quadric).point(hit.origin + hit.t * hit.direction);
+    if (quadric.kind == Quadric::Kind::sphere) {
+        p = glm::normalize(p);
+    } else if (const double radius = std::hypot(p.x, p.y); radius > 0.0) {
+        const double onto = (quadric.r0 + (quadric.r1 - quadric.r0) * p.z) / radius;
+        p = {p.x * onto, p.y * onto, p.z};
+    }
+    s.point = root_from_quadric.point(p);
     s.geometric = s.normal = quadric_normal(pose, hit.primitive, s.point);
-    s.extent = largest_coordinate(hit.origin);
+    s.extent = largest_coordinate(root_from_quadric.offset);
 }
 
 }  // namespace

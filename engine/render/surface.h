@@ -54,10 +54,12 @@ RayHit ray_hit(const RayTile<Real>& rays, int i)
 }
 
 /// How far off a surface a ray must begin or end so that it cannot meet the surface again, per unit of the largest
-/// coordinate involved: free of any scale of the scene. In units of the rounding error (2^-24 in float) vertices are
-/// off by 1 per axis, likewise the ray's origin, its direction up to 2 (as long as twice the largest coordinate), and t
-/// a few: less than 16 along the normal. In double the vertices tested are those that the point was computed from, and
-/// 8 units of 2^-53 do.
+/// coordinate involved: free of the scene's unit of length. In float, in units of the rounding error 2^-24 of that
+/// coordinate: the vertices tested are off by up to 1 per axis, so is the ray's origin, a shadow ray's direction by 2
+/// (it can be twice as long), and t by a few. Of 3 M random hits seen from random places, rays meet their own triangle
+/// again (ppm; triangle tests in double / in float; leaving / shadow rays)
+///     2 units  2 / 126, 1 / 1069      4 units  0 / 26, 0 / 8      16 units  0 / 2, 0 / 0
+/// In double the vertices tested are those that the point was computed from, and 8 units of 2^-53 do.
 template <typename Real>
 inline constexpr double self_hit_margin = std::is_same_v<Real, float> ? 0x1p-20 : 0x1p-50;
 

@@ -78,15 +78,15 @@ TEST_CASE("square numbers of samples lie on a grid in the pixel, others are well
 
 TEST_CASE("the tiles of a picture cover each pixel once, full 4 x 4 blocks first")
 {
-    for (const auto& [width, height] : {std::pair{1, 1}, {33, 31}, {64, 32}, {70, 45}}) {
-        CAPTURE(width);
+    for (const glm::ivec2 picture : {glm::ivec2(1, 1), {33, 31}, {64, 32}, {70, 45}}) {
+        CAPTURE(picture.x);
         std::set<std::pair<int, int>> seen;
         std::vector<glm::ivec2> pixels;
-        const glm::ivec2 tiles = tile_counts(width, height);
+        const glm::ivec2 tiles = tile_counts(picture.x, picture.y);
         for (int y = 0; y < tiles.y; ++y)
             for (int x = 0; x < tiles.x; ++x) {
-                tile_pixels({x, y}, width, height, pixels);
-                const glm::ivec2 size = glm::min(glm::ivec2(width, height) - glm::ivec2(x, y) * tile_width, tile_width);
+                tile_pixels({x, y}, picture.x, picture.y, pixels);
+                const glm::ivec2 size = glm::min(picture - glm::ivec2(x, y) * tile_width, tile_width);
                 const auto in_full_blocks = static_cast<std::size_t>((size.x / 4) * (size.y / 4) * 16);
                 REQUIRE(pixels.size() == static_cast<std::size_t>(size.x * size.y));
                 for (std::size_t i = 0; i < pixels.size(); ++i) {
@@ -94,7 +94,7 @@ TEST_CASE("the tiles of a picture cover each pixel once, full 4 x 4 blocks first
                     if (i < in_full_blocks) CHECK(pixels[i] / 4 == pixels[i / 16 * 16] / 4);
                 }
             }
-        CHECK(seen.size() == static_cast<std::size_t>(width * height));
-        CHECK(seen.rbegin()->first == width - 1);
+        CHECK(seen.size() == static_cast<std::size_t>(picture.x * picture.y));
+        CHECK(seen.rbegin()->first == picture.x - 1);
     }
 }

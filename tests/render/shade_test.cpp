@@ -52,7 +52,11 @@ TEST_CASE("the highlight is brightest where the viewer stands in the mirrored ra
     const Material m{.diffuse = glm::vec3(0.0f), .specular = glm::vec3(1.0f), .shine = 50.0f};
     const Surface s = met_at(45.0, m);
     CHECK(light_term(s, {0, 1, 1}, glm::vec3(1.0f)).x == doctest::Approx(1.0f));
-    CHECK(light_term(s, {0, -1, 0.9}, glm::vec3(1.0f)).x == 0.0f);
+    // Even powers, and powers that are no whole numbers, of a negative cosine.
+    for (const float shine : {2.0f, 2.5f}) {
+        const Material wide{.diffuse = glm::vec3(0.0f), .specular = glm::vec3(1.0f), .shine = shine};
+        CHECK(light_term(met_at(45.0, wide), {0, -1, 0.1}, glm::vec3(1.0f)).x == 0.0f);
+    }
 }
 
 TEST_CASE("an exponent of zero gives numbers")

@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <limits>
 #include <memory>
 
 #include "tests/support/reference_strategy.h"
@@ -99,6 +100,19 @@ TEST_CASE("a sphere's surface faces out, or in where the ray comes from inside")
     CHECK_FALSE(in.from_outside);
 }
 
+TEST_CASE("a point on a cone is exact although t is coarse")
+{
+    Scene scene = test::SmallScene().sphere(grey, {5, 0, 0}, 1.0).build();
+    scene.quadrics[0].kind = Quadric::Kind::cone;  // axis from (5, 0, 0) to (5, 0, 1)
+    scene.quadrics[0].r0 = 2.0;
+    scene.quadrics[0].r1 = 1.0;
+    const RayHit hit{.origin = {9, 0, 0.5}, .direction = {-1, 0, 0}, .t = 2.5001, .primitive = 0};
+    const Surface s = surface_at(pose(scene, 0.0), {}, hit);
+    CHECK(glm::distance(s.point, {6.5, 0, 0.5}) < 1e-14);
+    CHECK(glm::distance(s.normal, glm::normalize(glm::dvec3(1, 0, 1))) < 1e-14);
+    CHECK(s.extent == 6.5);
+}
+
 TEST_CASE_TEMPLATE("rays that leave a surface begin beside it, at a distance that scales with the scene", Real, float,
                    double)
 {
@@ -155,5 +169,38 @@ TEST_CASE_TEMPLATE("no ray that leaves a triangle meets it again, whatever its s
         }
     }
     CHECK(hits > 3000);
+    CHECK(self_hits == 0);
+}
+
+TEST_CASE_TEMPLATE("no ray that leaves a sphere outwards meets it again, however far the ray came that found it", Real,
+                   float, double)
+{
+    test::SmallScene small;
+    small.sphere(grey, {0.1, 0.2, 0.3}, 1.0);
+    const Scene scene = small.build();
+    const Pose at_start = pose(scene, 0.0);
+    test::ReferenceStrategy<Real> strategy;
+    strategy.update(at_start);
+    const auto rays = std::make_unique<RayTile<Real>>();
+    const auto aim = [&](const glm::dvec3& origin, const glm::dvec3& direction) {
+        rays->count = 1;
+        rays->set_origin(0, typename RayTile<Real>::Vec(origin));
+        rays->set_direction(0, typename RayTile<Real>::Vec(direction));
+        rays->set_interval(0, Real(0));
+        strategy.closest(*rays);
+        return rays->primitive[0] != no_primitive;
+    };
+    int hits = 0, self_hits = 0;
+    for (int i = 0; i < 1000; ++i) {
+        const glm::dvec3 eye(200.0 + i, 100.0, -50.0), place_seen(0.1, 0.2 + 0.0009 * i, 0.3);
+        if (!aim(eye, glm::normalize(place_seen - eye))) continue;
+        ++hits;
+        const Surface s = surface_at(at_start, {}, ray_hit(*rays, 0));
+        for (const glm::dvec3& aside : {glm::dvec3(0, 0, 0), glm::dvec3(0, 0, 0.9), glm::dvec3(0, 0.9, 0)}) {
+            const glm::dvec3 d = glm::normalize(s.normal + aside);
+            self_hits += aim(start_of_ray<Real>(s, d), d);
+        }
+    }
+    CHECK(hits == 1000);
     CHECK(self_hits == 0);
 }
