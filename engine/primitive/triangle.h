@@ -110,7 +110,9 @@ inline TriangleHit<float> intersect(const RootTriangle<float>& triangle, const g
     const float distance = std::max(std::max(apart.x, apart.y), apart.z) + triangle.edge;
     const float length = std::max(std::max(along.x, along.y), along.z);
     const float least = std::min(std::min(s.u, s.v), s.w), most = std::max(std::max(s.u, s.v), s.w);
-    const bool is_sloped = std::abs(s.slope) > least_slope * (triangle.edge * triangle.edge * length);
+    const float area = triangle.edge * triangle.edge, volume = area * distance;
+    const bool is_sloped =
+        std::abs(s.slope) > least_slope * (area * length) && volume > least_bound<float> && volume < 1e36f;
     if (exact_signs) {
         const float error = side_error<float> * (triangle.edge * distance * length);
         const bool is_certain = error >= least_bound<float> && (least > error || most < -error);

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "engine/primitive/triangle.h"
+
 namespace firstray {
 
 TriangleBoxOverlap::TriangleBoxOverlap(const glm::vec3& v0, const glm::vec3& v1, const glm::vec3& v2,
@@ -13,8 +15,12 @@ TriangleBoxOverlap::TriangleBoxOverlap(const glm::vec3& v0, const glm::vec3& v1,
 
     const glm::vec3 reach = normal_ * size;
     const float plane = glm::dot(normal_, v0);
-    nearest_ = plane - (std::max(reach.x, 0.0f) + std::max(reach.y, 0.0f) + std::max(reach.z, 0.0f));
-    farthest_ = plane - (std::min(reach.x, 0.0f) + std::min(reach.y, 0.0f) + std::min(reach.z, 0.0f));
+    // A sliver's normal is mostly rounding: each component is off by up to 6 half ulps of edge^2, which tilts the
+    // plane.
+    const float edge = longest_edge<float>(v0, v1, v2);
+    const float tilt = 0x1p-19f * edge * edge * (edge + std::max(std::max(size.x, size.y), size.z));
+    nearest_ = plane - (std::max(reach.x, 0.0f) + std::max(reach.y, 0.0f) + std::max(reach.z, 0.0f)) - tilt;
+    farthest_ = plane - (std::min(reach.x, 0.0f) + std::min(reach.y, 0.0f) + std::min(reach.z, 0.0f)) + tilt;
 
     for (int axis = 0; axis < 3; ++axis) {
         const int p = (axis + 1) % 3, q = (axis + 2) % 3;
