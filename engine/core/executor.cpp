@@ -27,9 +27,8 @@ void Executor::for_each(std::size_t count, const std::function<void(std::size_t)
         for (std::size_t i = 0; i < count; ++i) body(i);
         return;
     }
-    arena_->arena.execute([&] {
-        oneapi::tbb::parallel_for(std::size_t{0}, count, body, oneapi::tbb::simple_partitioner{});
-    });
+    arena_->arena.execute(
+        [&] { oneapi::tbb::parallel_for(std::size_t{0}, count, body, oneapi::tbb::simple_partitioner{}); });
 }
 
 void Executor::for_pieces(std::size_t count, std::size_t grain,

@@ -22,6 +22,15 @@ glm::dmat3 cofactors(const glm::dmat3& m)
 
 }  // namespace
 
+glm::dmat3 rotation_about(const glm::dvec3& axis, double angle)
+{
+    const double c = std::cos(angle), s = std::sin(angle);
+    const glm::dvec3 a = axis, b = (1.0 - c) * axis;
+    return {{c + a.x * b.x, a.x * b.y + s * a.z, a.x * b.z - s * a.y},
+            {a.y * b.x - s * a.z, c + a.y * b.y, a.y * b.z + s * a.x},
+            {a.z * b.x + s * a.y, a.z * b.y - s * a.x, c + a.z * b.z}};
+}
+
 bool is_singular(const Transform& t)
 {
     const double scale = largest_entry(t.linear);

@@ -18,6 +18,9 @@ inline Transform operator*(const Transform& a, const Transform& b)
     return {a.linear * b.linear, a.linear * b.offset + a.offset};
 }
 
+/// Turns counter-clockwise about an axis of unit length; angle in radians.
+glm::dmat3 rotation_about(const glm::dvec3& axis, double angle);
+
 /// Whether the map squeezes space into a plane, a line or a point (or is not finite), so that it has no usable inverse.
 bool is_singular(const Transform& t);
 

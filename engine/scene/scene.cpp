@@ -11,7 +11,7 @@ std::uint64_t Census::count(std::string_view statement) const
 
 double Scene::time_of(int frame) const
 {
-    if (frame <= 0) return start;
+    if (frame <= 0 || frames <= 1) return start;
     if (frame >= frames - 1) return end;  // exactly, whatever the division would round to
     return start + frame * (end - start) / (frames - 1);
 }

@@ -123,12 +123,7 @@ glm::dmat3 rotation_matrix(const Quaternion& q)
     const double length = glm::length(vector_part(q));
     if (!(length > 0.0)) return glm::dmat3(1.0);
     // BART does not clamp; axes that are too long then make it lose objects in single frames (acos gives NaN).
-    const double angle = 2.0 * std::acos(std::clamp(q.x, -1.0, 1.0));
-    const double c = std::cos(angle), s = std::sin(angle);
-    const glm::dvec3 a = vector_part(q) / length, b = (1.0 - c) * a;
-    return {{c + a.x * b.x, a.x * b.y + s * a.z, a.x * b.z - s * a.y},
-            {a.y * b.x - s * a.z, c + a.y * b.y, a.y * b.z + s * a.x},
-            {a.z * b.x + s * a.y, a.z * b.y - s * a.x, c + a.z * b.z}};
+    return rotation_about(vector_part(q) / length, 2.0 * std::acos(std::clamp(q.x, -1.0, 1.0)));
 }
 
 }  // namespace

@@ -18,9 +18,9 @@ enum class Precision {
 
 /// What a structure consists of and what it took. Counts are totals after update, lazily built parts included.
 struct StructureReport {
-    std::uint64_t grids = 0;       ///< top grids and supergrids
-    std::uint64_t subgrids = 0;    ///< grids inside voxels
-    std::uint64_t voxels = 0;      ///< cells of all grids
+    std::uint64_t grids = 0;     ///< top grids and supergrids
+    std::uint64_t subgrids = 0;  ///< grids inside voxels
+    std::uint64_t voxels = 0;    ///< cells of all grids
     std::uint64_t filled_voxels = 0;
     std::uint64_t references = 0;  ///< listings of primitives in voxels
     std::uint64_t primitives = 0;  ///< visible ones, each once
@@ -28,7 +28,7 @@ struct StructureReport {
     std::uint64_t peak_bytes = 0;  ///< most held at once since the strategy was made, building included
     std::uint64_t depth = 0;       ///< levels of grids, 1 without subgrids
     std::uint64_t largest_list = 0;
-    double lazy_build_ms = 0.0;    ///< spent building while rays flew, summed over threads, since update
+    double lazy_build_ms = 0.0;  ///< spent building while rays flew, summed over threads, since update
 };
 
 /// A way to find hits in an animated scene. update() runs alone; between two updates any number of threads may search.
@@ -53,9 +53,9 @@ public:
 /// What the user chooses about structures; each field has a flag of the command.
 struct StrategyOptions {
     Precision precision = Precision::robust;
-    float grid_density = 0.0f;         ///< cells of the top grid per primitive, > 0; 0 means the default
-    int max_list = 0;                  ///< primitives in a voxel above which it gets a subgrid, >= 1; 0: the default
-    int grid_depth = 3;                ///< levels of grids, >= 1; 1 means no subgrids
+    float grid_density = 0.0f;           ///< cells of the top grid per primitive, > 0; 0 means the default
+    int max_list = 0;                    ///< primitives in a voxel above which it gets a subgrid, >= 1; 0: the default
+    int grid_depth = 3;                  ///< levels of grids, >= 1; 1 means no subgrids
     const Executor* executor = nullptr;  ///< runs updates; must outlive the strategy; null: one thread
 };
 

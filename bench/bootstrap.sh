@@ -1,0 +1,63 @@
+# Sourced by tests/run and bench/run: finds what building needs, configures, builds. Expects `set -euo pipefail`.
+# After the first run nothing here needs the network or root.
+
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd -P)
+build=$root/build
+
+required_packages=(g++ cmake ninja-build pkg-config libtbb-dev libglm-dev libhwy-dev libopenimageio-dev libcli11-dev
+    libfmt-dev nlohmann-json3-dev doctest-dev libbenchmark-dev)
+optional_packages=(libembree-dev)  # a peer to measure against
+
+# Prints which of the given Debian packages are not installed.
+missing_packages() {
+    local package
+    for package in "$@"; do
+        [[ $(dpkg-query -W -f='${db:Status-Status}' "$package" 2>/dev/null) == installed ]] || echo "$package"
+    done
+}
+
+apt_install() {
+    DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "$@" >/dev/null
+}
+
+# Installs what is missing where that is possible, else says what to install and ends the script.
+ensure_packages() {
+    if ! command -v dpkg-query >/dev/null; then
+        echo "not a Debian system: packages are not checked, CMake will name what it misses" >&2
+        return
+    fi
+    local missing optional
+    mapfile -t missing < <(missing_packages "${required_packages[@]}")
+    mapfile -t optional < <(missing_packages "${optional_packages[@]}")
+    if ((${#missing[@]} > 0 && EUID != 0)); then
+        echo "missing packages; as root: apt-get install ${missing[*]}" >&2
+        exit 1
+    fi
+    if ((EUID != 0 || ${#missing[@]} + ${#optional[@]} == 0)); then return; fi
+    echo "installing ${missing[*]} ${optional[*]}" >&2
+    apt-get update -qq >/dev/null || echo "apt-get update failed, trying with what is known" >&2
+    if ((${#missing[@]} > 0)) && ! apt_install "${missing[@]}"; then
+        echo "could not install: ${missing[*]}" >&2
+        exit 1
+    fi
+    if ((${#optional[@]} > 0)) && ! apt_install "${optional[@]}"; then
+        echo "going on without ${optional[*]}" >&2
+    fi
+}
+
+# Runs a command quietly: its output is shown only when it fails.
+quietly() {
+    local log status=0
+    log=$(mktemp)
+    "$@" >"$log" 2>&1 || status=$?
+    if ((status != 0)); then cat "$log" >&2; fi
+    rm -f "$log"
+    return "$status"
+}
+
+# Configures build/ and builds the given targets, or everything.
+build_targets() {
+    ensure_packages
+    quietly cmake -S "$root" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=RelWithDebInfo
+    cmake --build "$build" ${1:+--target "$@"}
+}

@@ -1,0 +1,151 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "bench/firstray/jobs.h"
+#include "bench/firstray/stats.h"
+#include "engine/image/image.h"
+
+namespace firstray::command {
+namespace {
+
+Json to_json(const glm::dvec3& v)
+{
+    return {v.x, v.y, v.z};
+}
+
+Json describe_groups(const Scene& scene)
+{
+    const auto moving = std::count_if(scene.groups.begin(), scene.groups.end(),
+                                      [](const Group& group) { return group.node != 0 || group.deforming; });
+    const auto deforming =
+        std::count_if(scene.groups.begin(), scene.groups.end(), [](const Group& group) { return group.deforming; });
+    return {{"static", static_cast<std::ptrdiff_t>(scene.groups.size()) - moving},
+            {"moving", moving},
+            {"deforming", deforming}};
+}
+
+Json describe_textures(const Scene& scene, const std::vector<Texture>& textures)
+{
+    Json list = Json::array();
+    for (std::size_t i = 0; i < textures.size(); ++i)
+        list.push_back({{"file", scene.textures[i]}, {"width", textures[i].width}, {"height", textures[i].height}});
+    return list;
+}
+
+Json describe_bounds(const Scene& scene, const Pose& start)
+{
+    const DAabb box = bounds(start);
+    if (box.empty()) return nullptr;
+    return {{"lo", to_json(box.lo + scene.origin)}, {"hi", to_json(box.hi + scene.origin)}};
+}
+
+Json describe_camera(const Scene& scene, const Pose& start)
+{
+    return {{"eye", to_json(start.camera.eye + scene.origin)},
+            {"forward", to_json(start.camera.forward)},
+            {"up", to_json(start.camera.up)},
+            {"angle", scene.view.angle},
+            {"hither", scene.view.hither},
+            {"moves", scene.camera_animation != none}};
+}
+
+Json describe(const Scene& scene, const std::vector<Texture>& textures)
+{
+    const Pose start = pose(scene, scene.start);
+    Json statements = Json::object();
+    for (const auto& [word, count] : scene.census.statements) statements[word] = count;
+    return {{"name", scene.name},
+            {"files", scene.census.files},
+            {"file_bytes", scene.census.bytes},
+            {"statements", statements},
+            {"triangles", scene.triangles.size()},
+            {"deforming_triangles", scene.deforming.size()},
+            {"quadrics", scene.quadrics.size()},
+            {"parts", scene.parts.size()},
+            {"groups", describe_groups(scene)},
+            {"transforms", scene.nodes.empty() ? 0 : scene.nodes.size() - 1},  // the root is not one
+            {"animations", scene.animations.size()},
+            {"lights", scene.lights.size()},
+            {"materials", scene.materials.size()},
+            {"textures", describe_textures(scene, textures)},
+            {"bounds", describe_bounds(scene, start)},
+            {"origin", to_json(scene.origin)},
+            {"animation", {{"start", scene.start}, {"end", scene.end}, {"frames", scene.frames}}},
+            {"camera", describe_camera(scene, start)},
+            {"resolution", {scene.view.width, scene.view.height}}};
+}
+
+std::string vector_text(const Json& v)
+{
+    return fmt::format("{:.6g} {:.6g} {:.6g}", v[0].get<double>(), v[1].get<double>(), v[2].get<double>());
+}
+
+std::string row(std::string_view name, const std::string& value)
+{
+    return fmt::format("{:<12} {}\n", name, value);
+}
+
+std::string row(const Json& info, const char* name)
+{
+    return row(name, info[name].dump());
+}
+
+/// "statements   fm 1849, x 20, ...", wrapped like text.
+std::string statement_rows(const Json& statements)
+{
+    constexpr std::size_t width = 100;
+    std::string text, line;
+    for (const auto& [word, count] : statements.items()) {
+        const std::string item = fmt::format("{} {}", word, count.dump());
+        if (line.size() + item.size() > width) text += row(text.empty() ? "statements" : "", std::exchange(line, {}));
+        line += (line.empty() ? "" : "  ") + item;
+    }
+    return text + row(text.empty() ? "statements" : "", line);
+}
+
+std::string texture_rows(const Json& textures)
+{
+    std::string text = row("textures", std::to_string(textures.size()));
+    for (const Json& texture : textures)
+        text += fmt::format("{:<12} {} {}x{}\n", "", texture["file"].get<std::string>(), texture["width"].dump(),
+                            texture["height"].dump());
+    return text;
+}
+
+std::string table(const Json& info)
+{
+    const Json &groups = info["groups"], &animation = info["animation"], &camera = info["camera"];
+    std::string text = row("name", info["name"].get<std::string>());
+    text += row("files", fmt::format("{} ({} bytes)", info["files"].dump(), info["file_bytes"].dump()));
+    text += row("triangles",
+                fmt::format("{}, {} of them deforming", info["triangles"].dump(), info["deforming_triangles"].dump()));
+    for (const char* name : {"quadrics", "parts"}) text += row(info, name);
+    text += row("groups", fmt::format("{} static, {} moving, {} of them deforming", groups["static"].dump(),
+                                      groups["moving"].dump(), groups["deforming"].dump()));
+    for (const char* name : {"transforms", "animations", "lights", "materials"}) text += row(info, name);
+    if (info["bounds"].is_null())
+        text += row("bounds", "nothing is visible at the start");
+    else
+        text += row("bounds", fmt::format("{} to {} at the start", vector_text(info["bounds"]["lo"]),
+                                          vector_text(info["bounds"]["hi"])));
+    text += row("origin", vector_text(info["origin"]));
+    text += row("animation", fmt::format("{} frames, {} s to {} s", animation["frames"].dump(),
+                                         animation["start"].dump(), animation["end"].dump()));
+    text += row("camera", fmt::format("eye {}, forward {}, {:.6g} degrees, {}", vector_text(camera["eye"]),
+                                      vector_text(camera["forward"]), camera["angle"].get<double>(),
+                                      camera["moves"].get<bool>() ? "moves" : "stands"));
+    text += row("resolution", fmt::format("{}x{}", info["resolution"][0].dump(), info["resolution"][1].dump()));
+    return text + statement_rows(info["statements"]) + texture_rows(info["textures"]);
+}
+
+}  // namespace
+
+void print_info(const InfoJob& job, Streams streams)
+{
+    const Scene scene = read_scene(job.scene);
+    const Json info = describe(scene, image::read_textures(scene, {.allow_outside = job.scene.allow_outside}));
+    streams.out << (job.json ? info.dump(2) + "\n" : table(info));
+}
+
+}  // namespace firstray::command

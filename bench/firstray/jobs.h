@@ -1,0 +1,60 @@
+#pragma once
+#include <string>
+
+#include "bench/firstray/command.h"
+#include "engine/scene/scene.h"
+#include "engine/strategy/strategy.h"
+
+namespace firstray::command {
+
+/// What the options of a command set, as typed; the command itself gives it meaning.
+struct SceneChoice {
+    std::string file;
+    bool allow_outside = false;  ///< includes and textures may lie outside the scene's folder
+};
+
+struct SearchChoice {
+    std::string strategy = "grid";
+    std::string precision = "robust";
+    int threads = 0;
+    float grid_density = 0.0f;
+    int max_list = 0;
+    int grid_depth = StrategyOptions{}.grid_depth;
+};
+
+struct RenderJob {
+    SceneChoice scene;
+    SearchChoice search;
+    std::string frames = "0";
+    std::string size;  ///< empty: the scene's
+    int depth = 4;
+    int samples = 1;
+    std::string aovs;
+    std::string output;  ///< empty: the scene's name in the current folder
+    std::string stats;   ///< empty: none
+    std::string progress = "auto";
+    bool table = false;
+};
+
+struct InfoJob {
+    SceneChoice scene;
+    bool json = false;
+};
+
+struct TraceJob {
+    SceneChoice scene;
+    SearchChoice search;
+    int frame = 0;
+    std::string rays;
+    std::string output;  ///< empty: standard output
+};
+
+/// Each throws Error for what is the user's to mend, and whatever the engine throws.
+void render_scene(const RenderJob& job, Streams streams);
+void print_info(const InfoJob& job, Streams streams);
+void trace_rays(const TraceJob& job, Streams streams);
+
+/// throws  FileError, SceneError, LimitError
+Scene read_scene(const SceneChoice& choice);
+
+}  // namespace firstray::command

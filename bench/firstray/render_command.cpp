@@ -1,0 +1,168 @@
+#include <fmt/format.h>
+
+#include <set>
+
+#include "bench/firstray/frame_list.h"
+#include "bench/firstray/frame_loop.h"
+#include "bench/firstray/jobs.h"
+#include "bench/firstray/output_pattern.h"
+#include "bench/firstray/progress.h"
+#include "bench/firstray/search.h"
+#include "bench/firstray/stats.h"
+#include "bench/firstray/words.h"
+#include "engine/aff/reader.h"
+
+namespace firstray::command {
+namespace {
+
+glm::ivec2 parse_size(std::string_view text)
+{
+    const auto axes = split(text, 'x');
+    if (axes.size() != 2) throw UsageError(fmt::format("--size: '{}', expected WIDTHxHEIGHT, e.g. 800x600", text));
+    const int largest = ReadLimits{}.resolution;
+    return {parse_int("--size: width", axes[0], 1, largest), parse_int("--size: height", axes[1], 1, largest)};
+}
+
+/// A job with every word read and every default filled in.
+struct Plan {
+    std::vector<int> frames;
+    RenderOptions options;
+    std::vector<image::Aov> aovs;
+    std::string output;
+};
+
+Plan plan_of(const RenderJob& job, const std::vector<FrameRange>& ranges, const Scene& scene)
+{
+    Plan plan;
+    plan.frames = frames_of(ranges, scene.frames);
+    plan.aovs = parse_aovs(job.aovs);
+    const glm::ivec2 size = job.size.empty() ? glm::ivec2(scene.view.width, scene.view.height) : parse_size(job.size);
+    plan.options = {
+        .width = size.x, .height = size.y, .depth = job.depth, .samples = job.samples, .costs = any_cost(plan.aovs)};
+    plan.output = !job.output.empty() ? job.output : scene.name + (plan.aovs.empty() ? ".####.png" : ".####.exr");
+    check_pattern(plan.output, plan.frames.size(), !plan.aovs.empty());
+    return plan;
+}
+
+/// Refuses what needs no scene to be refused: a large scene takes its time to read.
+std::vector<FrameRange> check_words(const RenderJob& job, bool terminal)
+{
+    check_search(job.search);
+    if (!job.size.empty()) parse_size(job.size);
+    const bool layers = !parse_aovs(job.aovs).empty();
+    if (!job.output.empty()) check_pattern(job.output, 1, layers);
+    progress_style(job.progress, terminal);
+    return parse_frame_list(job.frames);
+}
+
+Json settings_of(const RenderJob& job, const Plan& plan, const Executor& executor)
+{
+    return {{"scene", job.scene.file},
+            {"strategy", job.search.strategy},
+            {"precision", job.search.precision},
+            {"frames", job.frames},
+            {"size", {plan.options.width, plan.options.height}},
+            {"depth", plan.options.depth},
+            {"spp", plan.options.samples},
+            {"threads", executor.threads()},
+            {"grid_density", job.search.grid_density},
+            {"max_list", job.search.max_list},
+            {"grid_depth", job.search.grid_depth},
+            {"allow_outside", job.scene.allow_outside},
+            {"aov", job.aovs},
+            {"output", plan.output}};
+}
+
+std::vector<std::pair<std::string, std::string>> attributes_of(const RenderJob& job, const Scene& scene, int frame)
+{
+    return {{"firstray:scene", scene.name},
+            {"firstray:frame", std::to_string(frame)},
+            {"firstray:strategy", job.search.strategy},
+            {"firstray:precision", job.search.precision}};
+}
+
+/// Says once of every node that its transform is singular.
+class SingularWarnings {
+public:
+    void add(const Pose& pose, int frame, Progress& progress)
+    {
+        for (const std::uint32_t node : pose.singular_nodes)
+            if (warned_.insert(node).second)
+                progress.message(
+                    fmt::format("frame {}: the transform '{}' is singular, what it moves is hidden (said once)", frame,
+                                pose.scene->nodes[node].name));
+    }
+
+private:
+    std::set<std::uint32_t> warned_;
+};
+
+struct Totals {
+    double update_ms = 0.0, trace_ms = 0.0;
+};
+
+template <typename Real>
+Totals render_frames(const RenderJob& job, const Plan& plan, FrameLoop<Real>& loop, StatsFile& stats_file,
+                     Streams streams)
+{
+    Totals totals;
+    Progress progress(streams.err, progress_style(job.progress, streams.terminal), plan.frames.size());
+    SingularWarnings warnings;
+    Frame picture;
+    if (job.table) streams.out << table_heading();
+    for (const int frame : plan.frames) {
+        const FrameStats stats = loop.render(frame, picture);
+        const Pose& pose = loop.current_pose();
+        warnings.add(pose, frame, progress);
+        image::write_frame(frame_file(plan.output, frame), picture, plan.aovs, attributes_of(job, *pose.scene, frame));
+        stats_file.add(stats);
+        if (job.table) streams.out << table_row(stats) << std::flush;
+        progress.frame_done(frame);
+        totals.update_ms += stats.update_ms;
+        totals.trace_ms += stats.trace_ms;
+    }
+    return totals;
+}
+
+/// Runs the loop; whatever ends it early, the frames that were finished are in the statistics.
+template <typename Real>
+Totals render_all(const RenderJob& job, const Plan& plan, FrameLoop<Real> loop, StatsFile& stats_file, Streams streams)
+{
+    try {
+        const Totals totals = render_frames(job, plan, loop, stats_file, streams);
+        stats_file.flush();
+        return totals;
+    } catch (...) {
+        try {
+            stats_file.flush();
+        } catch (const Error&) {
+            // the first failure is the one to report
+        }
+        throw;
+    }
+}
+
+}  // namespace
+
+void render_scene(const RenderJob& job, Streams streams)
+{
+    const std::vector<FrameRange> ranges = check_words(job, streams.terminal);
+    const Scene scene = read_scene(job.scene);
+    const Plan plan = plan_of(job, ranges, scene);
+    const std::vector<Texture> textures = image::read_textures(scene, {.allow_outside = job.scene.allow_outside});
+    const Executor executor(job.search.threads);
+    const AnyStrategy strategy = make_strategy(job.search, scene, executor);
+    StatsFile stats_file(job.stats, settings_of(job, plan, executor));
+    const Totals totals = std::visit(
+        [&](const auto& chosen) {
+            return render_all(job, plan, FrameLoop(scene, textures, *chosen, plan.options, executor), stats_file,
+                              streams);
+        },
+        strategy);
+    const double frames = static_cast<double>(plan.frames.size());
+    streams.err << fmt::format("firstray: {} {}, mean update {:.1f} ms, mean trace {:.1f} ms; written to {}\n",
+                               plan.frames.size(), plan.frames.size() == 1 ? "frame" : "frames",
+                               totals.update_ms / frames, totals.trace_ms / frames, plan.output);
+}
+
+}  // namespace firstray::command

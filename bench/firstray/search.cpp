@@ -1,0 +1,68 @@
+#include "bench/firstray/search.h"
+
+#include <fmt/format.h>
+
+#include <vector>
+
+#include "bench/firstray/words.h"
+#include "engine/aff/reader.h"
+
+namespace firstray::command {
+namespace {
+
+std::vector<std::string_view> known_strategies()
+{
+    std::vector<std::string_view> names;
+    for (const StrategyEntry& entry : strategies()) names.push_back(entry.name);
+    return names;
+}
+
+Precision parse_precision(std::string_view word)
+{
+    constexpr std::string_view words[] = {"fast", "robust", "double"};
+    constexpr Precision precisions[] = {Precision::fast, Precision::robust, Precision::double_};
+    return precisions[find_word("--precision", word, words)];
+}
+
+const StrategyEntry& parse_strategy(std::string_view word)
+{
+    return strategies()[find_word("--strategy", word, known_strategies())];
+}
+
+}  // namespace
+
+std::string strategy_names()
+{
+    return list_of(known_strategies());
+}
+
+void check_search(const SearchChoice& choice)
+{
+    const StrategyEntry& entry = parse_strategy(choice.strategy);
+    const bool in_double = parse_precision(choice.precision) == Precision::double_;
+    if (in_double ? entry.make_double == nullptr : entry.make == nullptr)
+        throw UsageError(fmt::format("--precision: strategy {} has no {}, expected {}", entry.name, choice.precision,
+                                     in_double ? "fast or robust" : "double"));
+}
+
+AnyStrategy make_strategy(const SearchChoice& choice, const Scene& scene, const Executor& executor)
+{
+    check_search(choice);
+    const StrategyEntry& entry = parse_strategy(choice.strategy);
+    const StrategyOptions options{.precision = parse_precision(choice.precision),
+                                  .grid_density = choice.grid_density,
+                                  .max_list = choice.max_list,
+                                  .grid_depth = choice.grid_depth,
+                                  .executor = &executor};
+    if (options.precision == Precision::double_) return entry.make_double(scene, options);
+    return entry.make(scene, options);
+}
+
+Scene read_scene(const SceneChoice& choice)
+{
+    ReadLimits limits;
+    limits.allow_outside = choice.allow_outside;
+    return read_aff(choice.file, limits);
+}
+
+}  // namespace firstray::command

@@ -1,0 +1,39 @@
+#pragma once
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "engine/core/errors.h"
+
+namespace firstray::command {
+
+/// What the user typed and we cannot take; the message says what was expected.
+class UsageError : public Error {
+public:
+    explicit UsageError(const std::string& message) : Error(Fault::usage, message) {}
+};
+
+/// The parts of `text` between separators; an empty text is one empty part.
+std::vector<std::string_view> split(std::string_view text, char separator);
+
+/// `text` without blanks, tabs and carriage returns at its ends.
+std::string_view trim(std::string_view text);
+
+/// The whole of `text` as a decimal integer in [low, high].
+/// what    names the value in the message, e.g. "--size"
+/// throws  UsageError
+int parse_int(std::string_view what, std::string_view text, int low, int high);
+
+/// "a, b or c".
+std::string list_of(std::span<const std::string_view> words);
+
+/// "; did you mean X?" for the word most like `word`, or nothing where none is like it.
+std::string suggestion(std::string_view word, std::span<const std::string_view> words);
+
+/// Position of `word` among `words`.
+/// what    names the value in the message, e.g. "--precision"
+/// throws  UsageError that lists the words
+std::size_t find_word(std::string_view what, std::string_view word, std::span<const std::string_view> words);
+
+}  // namespace firstray::command

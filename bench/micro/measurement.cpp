@@ -1,0 +1,201 @@
+#include "bench/micro/measurement.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+
+#include "engine/core/errors.h"
+
+namespace firstray {
+namespace {
+
+constexpr double tolerance = 1e-3;              // of t
+constexpr double most_differing = 0.001 * 1e6;  // rays per million
+constexpr float nothing = std::numeric_limits<float>::infinity();
+
+struct Contender {
+    Measured& result;
+    std::unique_ptr<Strategy<float>> strategy;
+};
+
+void search(const Strategy<float>& strategy, Phase phase, RayTile<float>& tile)
+{
+    if (phase == Phase::primary)
+        strategy.closest(tile);
+    else
+        strategy.occluded(tile);
+}
+
+/// Calls visit(tile) for every batch of a phase.
+template <typename Visit>
+void for_batches(const FrameRays& rays, Phase phase, const Visit& visit)
+{
+    const auto tile = std::make_unique<RayTile<float>>();
+    for (std::size_t batch = 0; batch < rays.batches(phase); ++batch) {
+        rays.load(phase, batch, *tile);
+        visit(*tile);
+    }
+}
+
+/// Per ray: t of the hit, or 1 where a shadow ray meets something; infinity for nothing.
+std::vector<float> answers(const Strategy<float>& strategy, const FrameRays& rays, Phase phase)
+{
+    std::vector<float> found;
+    found.reserve(rays.count(phase));
+    for_batches(rays, phase, [&](RayTile<float>& tile) {
+        search(strategy, phase, tile);
+        for (std::size_t i = 0; i < static_cast<std::size_t>(tile.count); ++i)
+            found.push_back(tile.primitive[i] == no_primitive ? nothing
+                            : phase == Phase::primary         ? tile.t_max[i]
+                                                              : 1.0f);
+    });
+    return found;
+}
+
+double seconds_to_search(const Strategy<float>& strategy, const FrameRays& rays, Phase phase)
+{
+    using Clock = std::chrono::steady_clock;
+    Clock::duration spent{};
+    for_batches(rays, phase, [&](RayTile<float>& tile) {
+        const Clock::time_point start = Clock::now();
+        search(strategy, phase, tile);
+        spent += Clock::now() - start;
+    });
+    return std::chrono::duration<double>(spent).count();
+}
+
+double seconds_to_update(Strategy<float>& strategy, const Pose& pose)
+{
+    const auto start = std::chrono::steady_clock::now();
+    strategy.update(pose);
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+bool differ(float expected, float found)
+{
+    if (std::isfinite(expected) != std::isfinite(found)) return true;
+    return std::isfinite(expected) && std::abs(found - expected) > tolerance * std::abs(expected);
+}
+
+void compare(const std::vector<float>& expected, const std::vector<float>& found, Agreement& agreement)
+{
+    agreement.rays += expected.size();
+    for (std::size_t i = 0; i < expected.size(); ++i) agreement.differing += differ(expected[i], found[i]);
+}
+
+/// Runs `work` unless the contender is out already; an Error puts it out.
+template <typename Work>
+void attempt(Measured& result, const Work& work)
+{
+    if (!result.fault.empty()) return;
+    try {
+        work();
+    } catch (const Error& error) {
+        result.fault = error.what();
+    }
+}
+
+/// Records a frame's rays with the reference's hits and compares everyone's answers.
+void check_frame(Strategy<float>& reference, FrameRays& rays, std::vector<Contender>& contenders)
+{
+    reference.update(rays.pose());
+    const std::vector<float> primary = answers(reference, rays, Phase::primary);
+    rays.set_hits(primary);
+    const std::vector<float> shadow = answers(reference, rays, Phase::shadow);
+    for (Contender& contender : contenders)
+        attempt(contender.result, [&] {
+            contender.strategy->update(rays.pose());
+            compare(primary, answers(*contender.strategy, rays, Phase::primary), contender.result.agreement);
+            compare(shadow, answers(*contender.strategy, rays, Phase::shadow), contender.result.agreement);
+        });
+}
+
+void refuse_differing(std::vector<Contender>& contenders)
+{
+    for (Contender& contender : contenders) {
+        const double differing = contender.result.agreement.per_million();
+        if (differing > most_differing && contender.result.fault.empty())
+            contender.result.fault =
+                std::to_string(std::lround(differing)) + " rays per million differ from the reference";
+    }
+}
+
+void time_frame(Contender& contender, const FrameRays& rays, PhaseTimes& times)
+{
+    times.update = seconds_to_update(*contender.strategy, rays.pose());
+    times.primary = seconds_to_search(*contender.strategy, rays, Phase::primary);
+    times.shadow = seconds_to_search(*contender.strategy, rays, Phase::shadow);
+}
+
+void time_round(std::vector<Contender>& contenders, const std::vector<FrameRays>& frames, std::size_t round)
+{
+    for (Contender& contender : contenders) contender.result.rounds.emplace_back(frames.size());
+    for (std::size_t frame = 0; frame < frames.size(); ++frame)
+        for (std::size_t turn = 0; turn < contenders.size(); ++turn) {
+            Contender& contender = contenders[(turn + round) % contenders.size()];  // nobody always follows the same
+            attempt(contender.result,
+                    [&] { time_frame(contender, frames[frame], contender.result.rounds.back()[frame]); });
+        }
+}
+
+/// What the renderer asks for is opaque primitives only where there are others.
+RayMask shadow_mask(const Scene& scene, RayMask wanted)
+{
+    const auto transmits = [&](const Part& part) { return scene.materials[part.material].transmits(); };
+    return std::any_of(scene.parts.begin(), scene.parts.end(), transmits) ? wanted : RayMask::all;
+}
+
+std::vector<FrameRays> frames_of(const Scene& scene, const MeasurePlan& plan)
+{
+    std::vector<FrameRays> frames;
+    for (int i = 0; i < plan.frames; ++i) {
+        const int frame = static_cast<int>(std::int64_t{i} * scene.frames / plan.frames);
+        frames.emplace_back(pose(scene, scene.time_of(frame)), plan.width, plan.height,
+                            shadow_mask(scene, plan.shadow_mask));
+    }
+    return frames;
+}
+
+std::vector<Contender> make_contenders(const Scene& scene, const StrategyOptions& options,
+                                       std::vector<Measured>& results)
+{
+    std::vector<Contender> contenders;
+    for (Measured& result : results) {
+        contenders.push_back({result, nullptr});
+        attempt(result, [&] { contenders.back().strategy = result.entry->make(scene, options); });
+    }
+    return contenders;
+}
+
+}  // namespace
+
+Measurement measure(const Scene& scene, const MeasurePlan& plan)
+{
+    const Executor executor(1);
+    StrategyOptions options;
+    options.precision = plan.precision;
+    options.executor = &executor;
+
+    Measurement measurement;
+    measurement.strategies.resize(plan.contenders.size());
+    for (std::size_t i = 0; i < plan.contenders.size(); ++i) measurement.strategies[i].entry = plan.contenders[i];
+    std::vector<Contender> contenders = make_contenders(scene, options, measurement.strategies);
+    std::vector<FrameRays> frames = frames_of(scene, plan);
+
+    auto reference = plan.reference->make(scene, options);
+    for (FrameRays& frame : frames) {
+        check_frame(*reference, frame, contenders);
+        measurement.primary += frame.count(Phase::primary);
+        measurement.shadow += frame.count(Phase::shadow);
+    }
+    reference.reset();
+    refuse_differing(contenders);
+
+    for (int round = 0; round < plan.rounds; ++round) time_round(contenders, frames, static_cast<std::size_t>(round));
+    for (Contender& contender : contenders)
+        attempt(contender.result, [&] { contender.result.structure = contender.strategy->report(); });
+    return measurement;
+}
+
+}  // namespace firstray

@@ -1,0 +1,117 @@
+#include "bench/micro/summary.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <ostream>
+
+namespace firstray {
+namespace {
+
+constexpr ReportedPart parts[] = {
+    {"update", [](const PhaseTimes& times) { return times.update; }, false},
+    {"primary", [](const PhaseTimes& times) { return times.primary; }, true},
+    {"shadow", [](const PhaseTimes& times) { return times.shadow; }, true},
+    {"trace", [](const PhaseTimes& times) { return times.primary + times.shadow; }, true},
+    {"frame", [](const PhaseTimes& times) { return times.update + times.primary + times.shadow; }, true},
+};
+
+double median(std::vector<double> values)
+{
+    std::sort(values.begin(), values.end());
+    const std::size_t half = values.size() / 2;
+    return values.size() % 2 ? values[half] : (values[half - 1] + values[half]) / 2.0;
+}
+
+template <typename... Values>
+std::string format(const char* pattern, Values... values)
+{
+    char text[160];
+    std::snprintf(text, sizeof text, pattern, values...);
+    return text;
+}
+
+void write_line(std::ostream& out, const Measured& base, const Measured& measured)
+{
+    out << format("  %-18s", std::string(measured.entry->name).c_str());
+    for (const ReportedPart& part : parts) {
+        const Ratio ratio = ratio_to(base, measured, part);
+        out << format(" %9.1f ms x%6.3f [%6.3f %6.3f]", 1e3 * typical_seconds(measured, part), ratio.median,
+                      ratio.least, ratio.most);
+    }
+    out << format(" %9.1f\n", measured.agreement.per_million());
+}
+
+}  // namespace
+
+std::span<const ReportedPart> reported_parts()
+{
+    return parts;
+}
+
+double round_seconds(const Measured& measured, std::size_t round, const ReportedPart& part)
+{
+    double seconds = 0.0;
+    for (const PhaseTimes& times : measured.rounds[round]) seconds += part.seconds(times);
+    return seconds;
+}
+
+double typical_seconds(const Measured& measured, const ReportedPart& part)
+{
+    double seconds = 0.0;
+    for (std::size_t frame = 0; frame < measured.rounds.front().size(); ++frame) {
+        std::vector<double> samples;
+        for (const auto& round : measured.rounds) samples.push_back(part.seconds(round[frame]));
+        seconds += median(samples);
+    }
+    return seconds;
+}
+
+Ratio ratio_to(const Measured& base, const Measured& measured, const ReportedPart& part)
+{
+    std::vector<double> ratios;
+    for (std::size_t round = 0; round < measured.rounds.size(); ++round) {
+        const double cost = round_seconds(measured, round, part) / round_seconds(base, round, part);
+        ratios.push_back(part.faster_is_above_one ? 1.0 / cost : cost);
+    }
+    const auto [least, most] = std::minmax_element(ratios.begin(), ratios.end());
+    return {median(ratios), *least, *most};
+}
+
+std::uint64_t rays_of(const Measurement& measurement, const ReportedPart& part)
+{
+    std::uint64_t rays = 0;
+    if (part.name == "primary" || part.name == "trace") rays += measurement.primary;
+    if (part.name == "shadow" || part.name == "trace") rays += measurement.shadow;
+    return rays;
+}
+
+const Measured* timed(const Measurement& measurement, std::string_view name)
+{
+    for (const Measured& measured : measurement.strategies)
+        if (measured.entry->name == name && measured.fault.empty()) return &measured;
+    return nullptr;
+}
+
+void write_table(std::ostream& out, std::string_view scene, const Measurement& measurement, std::string_view base)
+{
+    const Measured* base_measured = timed(measurement, base);
+    out << "\n" << scene << ": milliseconds (medians over the rounds, summed over the frames)";
+    if (!base_measured) {
+        out << "; no ratios, since " << base << " was not timed\n";
+        return;
+    }
+    out << format(", %zu rounds, %.1f M primary and %.1f M shadow rays\n", base_measured->rounds.size(),
+                  1e-6 * static_cast<double>(measurement.primary), 1e-6 * static_cast<double>(measurement.shadow));
+    out << "  x update: this / " << base << "; x otherwise: " << base << " / this, so above 1 is faster; "
+        << "median [least most] of the rounds; differ: rays per million unlike the reference\n";
+    out << format("  %-18s", "strategy");
+    for (const ReportedPart& part : parts) out << format(" %35s", std::string(part.name).c_str());
+    out << format(" %9s\n", "differ");
+    for (const Measured& measured : measurement.strategies)
+        if (measured.fault.empty())
+            write_line(out, *base_measured, measured);
+        else
+            out << "  " << measured.entry->name << ": not timed: " << measured.fault << "\n";
+}
+
+}  // namespace firstray

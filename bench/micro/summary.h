@@ -1,0 +1,41 @@
+#pragma once
+#include <iosfwd>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "bench/micro/measurement.h"
+
+namespace firstray {
+
+/// A part of a frame that is reported.
+struct ReportedPart {
+    std::string_view name;
+    double (*seconds)(const PhaseTimes& times);
+    bool faster_is_above_one;  ///< ratio is base / strategy (relative speed), else strategy / base (relative cost)
+};
+
+/// update, primary, shadow, trace (primary and shadow) and frame (all of it).
+std::span<const ReportedPart> reported_parts();
+
+/// How a strategy compares with the base: the median, smallest and largest over the rounds.
+struct Ratio {
+    double median = 0.0, least = 0.0, most = 0.0;
+};
+
+/// Seconds that a part took in all frames of one round.
+double round_seconds(const Measured& measured, std::size_t round, const ReportedPart& part);
+/// Sum over frames of the median over rounds, seconds.
+double typical_seconds(const Measured& measured, const ReportedPart& part);
+/// Compares round by round: a round's measurements were taken side by side. Both have at least one round.
+Ratio ratio_to(const Measured& base, const Measured& measured, const ReportedPart& part);
+/// Rays that a part traces in all frames; none for update and frame.
+std::uint64_t rays_of(const Measurement& measurement, const ReportedPart& part);
+
+/// The entry of that name if it was timed, else null.
+const Measured* timed(const Measurement& measurement, std::string_view name);
+
+/// Writes a table of ratios: a line per strategy, with spread, number of rounds and share of differing rays.
+void write_table(std::ostream& out, std::string_view scene, const Measurement& measurement, std::string_view base);
+
+}  // namespace firstray

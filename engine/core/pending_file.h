@@ -1,0 +1,33 @@
+#pragma once
+#include <filesystem>
+#include <string_view>
+
+namespace firstray {
+
+/// A file on its way: written under a temporary name in the folder of its target and renamed when it is whole, so that
+/// a reader sees the old file or the new one, never a part. The temporary file goes away if commit() was not reached.
+class PendingFile {
+public:
+    /// Makes the target's folders where they are missing.
+    /// throws  FileError when that fails
+    explicit PendingFile(std::filesystem::path target);
+    ~PendingFile();
+    PendingFile(const PendingFile&) = delete;
+    PendingFile& operator=(const PendingFile&) = delete;
+
+    /// Where to write; no file of that name exists yet.
+    const std::filesystem::path& path() const { return temporary_; }
+
+    /// Moves the written file to its target.
+    /// throws  FileError
+    void commit();
+
+private:
+    std::filesystem::path target_, temporary_;
+};
+
+/// Writes `content` to `file`, complete or not at all.
+/// throws  FileError
+void write_whole_file(const std::filesystem::path& file, std::string_view content);
+
+}  // namespace firstray

@@ -1,0 +1,30 @@
+#pragma once
+#include <span>
+
+#include "engine/grid/bin.h"
+#include "engine/grid/grid.h"
+
+namespace firstray {
+
+/// A voxel's entries and box, waiting to be put into packs.
+struct ListToFill {
+    std::span<const std::uint32_t> entries;
+    Aabb box;
+};
+
+Aabb cell_box(const Grid& grid, std::uint32_t cell);
+Aabb clipped(const Aabb& box, const Aabb& to);
+
+/// Room that lists need in a structure, counted before it is made.
+struct PackCounts {
+    std::uint32_t packs = 0, boxes = 0, quadrics = 0;
+};
+
+/// The places in a structure, behind those counted already, of a list of these entries.
+VoxelList reserve_list(std::span<const std::uint32_t> listed, const GridEntries& entries, PackCounts& counts);
+
+/// Sorts a list's triangles into clusters of sixteen and copies them to its places, which must exist. Different lists
+/// may be filled at the same time.
+void fill_list(const VoxelList& list, const ListToFill& to_fill, const GridEntries& entries, GridStructure& structure);
+
+}  // namespace firstray

@@ -1,0 +1,73 @@
+#include "engine/grid/search.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "engine/grid/search.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "engine/grid/search-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace firstray {
+namespace HWY_NAMESPACE {
+
+/// Everything is there: a cell's word says where.
+struct EagerResolver {
+    const GridStructure& structure;
+
+    CellWord word(std::int32_t cell) const { return structure.cells[static_cast<std::size_t>(cell)]; }
+    Voxel voxel(CellWord word, std::int32_t /*cell*/) const
+    {
+        if (word.is_subgrid()) return {nullptr, &structure.grids[word.index()]};
+        return {&structure.lists[word.index()], nullptr};
+    }
+};
+
+void closest_float(const SearchTarget<float>& target, RayTile<float>& tile)
+{
+    search_tile<Query::closest>(target, EagerResolver{*target.structure}, tile);
+}
+void closest_double(const SearchTarget<double>& target, RayTile<double>& tile)
+{
+    search_tile<Query::closest>(target, EagerResolver{*target.structure}, tile);
+}
+void any_float(const SearchTarget<float>& target, RayTile<float>& tile)
+{
+    search_tile<Query::any>(target, EagerResolver{*target.structure}, tile);
+}
+void any_double(const SearchTarget<double>& target, RayTile<double>& tile)
+{
+    search_tile<Query::any>(target, EagerResolver{*target.structure}, tile);
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace firstray
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace firstray {
+
+HWY_EXPORT(closest_float);
+HWY_EXPORT(closest_double);
+HWY_EXPORT(any_float);
+HWY_EXPORT(any_double);
+
+void search_closest(const SearchTarget<float>& target, RayTile<float>& tile)
+{
+    HWY_DYNAMIC_DISPATCH(closest_float)(target, tile);
+}
+void search_closest(const SearchTarget<double>& target, RayTile<double>& tile)
+{
+    HWY_DYNAMIC_DISPATCH(closest_double)(target, tile);
+}
+void search_any(const SearchTarget<float>& target, RayTile<float>& tile)
+{
+    HWY_DYNAMIC_DISPATCH(any_float)(target, tile);
+}
+void search_any(const SearchTarget<double>& target, RayTile<double>& tile)
+{
+    HWY_DYNAMIC_DISPATCH(any_double)(target, tile);
+}
+
+}  // namespace firstray
+#endif  // HWY_ONCE

@@ -1,0 +1,239 @@
+#include "engine/image/image.h"
+
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imageio.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <stdexcept>
+
+#include "engine/core/errors.h"
+#include "engine/core/pending_file.h"
+
+namespace firstray::image {
+namespace {
+
+namespace fs = std::filesystem;
+using Attributes = std::span<const std::pair<std::string, std::string>>;
+
+// ---- reading
+
+[[noreturn]] void cannot_read(const fs::path& file, const std::string& reason)
+{
+    throw FileError("cannot read picture " + file.string() + ": " + reason);
+}
+
+/// Files alone: opening a pipe would wait, a device may never end.
+void check_regular(const fs::path& file)
+{
+    std::error_code error;
+    const fs::file_status status = fs::status(file, error);
+    if (status.type() == fs::file_type::not_found) cannot_read(file, "no such file");
+    if (error) cannot_read(file, error.message());
+    if (!fs::is_regular_file(status)) cannot_read(file, "not a regular file");
+}
+
+void check_header(const fs::path& file, const OIIO::ImageSpec& spec, const ImageLimits& limits)
+{
+    const auto size = std::to_string(spec.width) + "x" + std::to_string(spec.height);
+    if (spec.width < 1 || spec.height < 1 || spec.depth > 1 || spec.deep) cannot_read(file, "not a flat picture");
+    if (spec.nchannels < 1 || spec.nchannels > 4)
+        cannot_read(file, std::to_string(spec.nchannels) + " channels, expected 1 to 4");
+    if (spec.width > limits.resolution || spec.height > limits.resolution)
+        throw LimitError("picture " + file.string() + " is " + size + ", the limit is " +
+                         std::to_string(limits.resolution) + " per axis");
+    const auto bytes = static_cast<std::uint64_t>(spec.width) * static_cast<std::uint64_t>(spec.height) *
+                       static_cast<std::uint64_t>(std::max(spec.nchannels, 3));
+    if (bytes > limits.bytes)
+        throw LimitError("picture " + file.string() + " (" + size + ") decodes to " + std::to_string(bytes) +
+                         " bytes, the limit is " + std::to_string(limits.bytes));
+}
+
+/// Grey, grey with alpha or colour with alpha, as colour alone.
+std::vector<std::uint8_t> to_rgb(const std::vector<std::uint8_t>& pixels, std::size_t channels)
+{
+    const std::size_t count = pixels.size() / channels;
+    std::vector<std::uint8_t> rgb(3 * count);
+    for (std::size_t i = 0; i < count; ++i)
+        for (std::size_t c = 0; c < 3; ++c) rgb[3 * i + c] = pixels[channels * i + (channels < 3 ? 0 : c)];
+    return rgb;
+}
+
+/// Whether `file` lies in `folder` or below; both canonical, so links and ".." are already followed.
+bool lies_inside(const fs::path& folder, const fs::path& file)
+{
+    return std::mismatch(folder.begin(), folder.end(), file.begin(), file.end()).first == folder.end();
+}
+
+fs::path texture_file(const Scene& scene, const std::string& name, const ImageLimits& limits)
+{
+    const fs::path folder = scene.folder.empty() ? fs::path(".") : fs::path(scene.folder);
+    const fs::path file = folder / name;
+    check_regular(file);
+    std::error_code error;
+    if (!limits.allow_outside && !lies_inside(fs::canonical(folder, error), fs::canonical(file, error)))
+        cannot_read(file, "it lies outside the scene's folder, which was not allowed");
+    return file;
+}
+
+// ---- writing
+
+[[noreturn]] void cannot_write(const fs::path& file, const std::string& reason)
+{
+    throw FileError("cannot write " + file.string() + ": " + reason);
+}
+
+/// Every layer is 32 bits wide, float or uint32, so a pixel is a row of words whatever its channels are.
+struct Packed {
+    OIIO::ImageSpec spec;
+    std::vector<std::uint32_t> words;  ///< spec.nchannels per pixel
+};
+
+template <typename T>
+void pack(std::span<const T> layer, std::size_t channel, Packed& packed)
+{
+    const auto channels = static_cast<std::size_t>(packed.spec.nchannels);
+    if (layer.size() * channels != packed.words.size())
+        throw std::invalid_argument("write_frame: the frame has no layer " + packed.spec.channelnames[channel]);
+    for (std::size_t i = 0; i < layer.size(); ++i)
+        packed.words[i * channels + channel] = std::bit_cast<std::uint32_t>(layer[i]);
+}
+
+const char* name_of(Aov aov)
+{
+    switch (aov) {
+        case Aov::distance:
+            return "distance";
+        case Aov::primitive:
+            return "primitive";
+        case Aov::group:
+            return "group";
+        case Aov::cells:
+            return "cells";
+        case Aov::tests:
+            return "tests";
+        case Aov::time:
+            return "time";
+    }
+    throw std::invalid_argument("write_frame: no such layer");
+}
+
+bool is_float(Aov aov)
+{
+    return aov == Aov::distance || aov == Aov::time;
+}
+
+void pack(const Frame& frame, Aov aov, std::size_t channel, Packed& packed)
+{
+    switch (aov) {
+        case Aov::distance:
+            return pack<float>(frame.distance, channel, packed);
+        case Aov::primitive:
+            return pack<std::uint32_t>(frame.primitive, channel, packed);
+        case Aov::group:
+            return pack<std::uint32_t>(frame.group, channel, packed);
+        case Aov::cells:
+            return pack<std::uint32_t>(frame.cells, channel, packed);
+        case Aov::tests:
+            return pack<std::uint32_t>(frame.tests, channel, packed);
+        case Aov::time:
+            return pack<float>(frame.nanoseconds, channel, packed);
+    }
+}
+
+Packed pack_exr(const Frame& frame, std::span<const Aov> aovs)
+{
+    Packed packed;
+    const std::size_t channels = 3 + aovs.size();
+    packed.spec = OIIO::ImageSpec(frame.width, frame.height, static_cast<int>(channels), OIIO::TypeFloat);
+    packed.spec.channelnames = {"R", "G", "B"};
+    packed.spec.channelformats.assign(3, OIIO::TypeFloat);
+    for (const Aov aov : aovs) {
+        packed.spec.channelnames.emplace_back(name_of(aov));
+        packed.spec.channelformats.push_back(is_float(aov) ? OIIO::TypeFloat : OIIO::TypeUInt32);
+    }
+    packed.words.resize(frame.pixel_count() * channels);
+    for (std::size_t i = 0; i < frame.pixel_count(); ++i)
+        for (int c = 0; c < 3; ++c)
+            packed.words[i * channels + static_cast<std::size_t>(c)] = std::bit_cast<std::uint32_t>(frame.colour[i][c]);
+    for (std::size_t a = 0; a < aovs.size(); ++a) pack(frame, aovs[a], 3 + a, packed);
+    return packed;
+}
+
+std::vector<std::uint8_t> pack_png(const Frame& frame)
+{
+    std::vector<std::uint8_t> bytes;
+    bytes.reserve(3 * frame.pixel_count());
+    for (const glm::vec3& colour : frame.colour)
+        for (int c = 0; c < 3; ++c)
+            bytes.push_back(static_cast<std::uint8_t>(std::fmin(std::fmax(colour[c], 0.0f), 1.0f) * 255.0f + 0.5f));
+    return bytes;
+}
+
+/// Encodes in memory, then writes: the encoders themselves report success when a disk is full.
+/// format  of `pixels`; unknown: each channel has its own
+void write_pixels(const fs::path& file, const char* format_name, OIIO::ImageSpec spec, Attributes attributes,
+                  OIIO::TypeDesc format, const void* pixels)
+{
+    for (const auto& [name, value] : attributes) spec.attribute(name, value);
+    const auto out = OIIO::ImageOutput::create(format_name);
+    if (!out) cannot_write(file, OIIO::geterror());
+    OIIO::Filesystem::IOVecOutput encoded;
+    out->set_ioproxy(&encoded);
+    const bool written = out->open(file.string(), spec) && out->write_image(format, pixels);
+    if (!out->close() || !written) cannot_write(file, out->geterror());
+    const auto& bytes = encoded.buffer();
+    write_whole_file(file, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+}
+
+}  // namespace
+
+Texture read_texture(const fs::path& file, const ImageLimits& limits)
+{
+    check_regular(file);
+    OIIO::ImageSpec wishes;
+    wishes.attribute("oiio:UnassociatedAlpha", 1);  // else colour comes multiplied by the alpha that is dropped here
+    const auto in = OIIO::ImageInput::open(file.string(), &wishes);
+    if (!in) cannot_read(file, OIIO::geterror());
+    const OIIO::ImageSpec& spec = in->spec();
+    check_header(file, spec, limits);
+
+    Texture texture{spec.width, spec.height, {}};
+    const auto channels = static_cast<std::size_t>(spec.nchannels);
+    texture.pixels.resize(static_cast<std::size_t>(spec.width) * static_cast<std::size_t>(spec.height) * channels);
+    if (!in->read_image(0, 0, 0, spec.nchannels, OIIO::TypeUInt8, texture.pixels.data()))
+        cannot_read(file, in->geterror());
+    if (channels != 3) texture.pixels = to_rgb(texture.pixels, channels);
+    return texture;
+}
+
+std::vector<Texture> read_textures(const Scene& scene, const ImageLimits& limits)
+{
+    std::vector<Texture> textures;
+    textures.reserve(scene.textures.size());
+    for (const std::string& name : scene.textures)
+        textures.push_back(read_texture(texture_file(scene, name, limits), limits));
+    return textures;
+}
+
+void write_frame(const fs::path& file, const Frame& frame, std::span<const Aov> aovs, Attributes attributes)
+{
+    if (frame.pixel_count() == 0 || frame.colour.size() != frame.pixel_count())
+        throw std::invalid_argument("write_frame: the frame has no picture");
+    if (file.extension() == ".exr") {
+        const Packed packed = pack_exr(frame, aovs);
+        // An unknown format says that each channel comes in its own.
+        write_pixels(file, "openexr", packed.spec, attributes, OIIO::TypeUnknown, packed.words.data());
+    } else if (file.extension() == ".png") {
+        if (!aovs.empty()) cannot_write(file, "PNG holds colour alone, write .exr for the layers asked for");
+        const std::vector<std::uint8_t> bytes = pack_png(frame);
+        write_pixels(file, "png", OIIO::ImageSpec(frame.width, frame.height, 3, OIIO::TypeUInt8), attributes,
+                     OIIO::TypeUInt8, bytes.data());
+    } else {
+        cannot_write(file, "the name must end in .exr or .png");
+    }
+}
+
+}  // namespace firstray::image

@@ -1,0 +1,87 @@
+#include "engine/primitive/exact.h"
+
+#include <array>
+#include <cassert>
+#include <cmath>
+
+namespace firstray {
+namespace {
+
+/// The rounded sum, and what rounding took away.
+struct Two {
+    double sum, rest;
+};
+
+Two two_sum(double a, double b)
+{
+    const double sum = a + b;
+    const double b_part = sum - a;
+    return {sum, (a - (sum - b_part)) + (b - b_part)};
+}
+
+Two two_product(double a, double b)
+{
+    const double product = a * b;
+    return {product, std::fma(a, b, -product)};
+}
+
+/// A number as an unevaluated sum of doubles that do not overlap, smallest first.
+class Expansion {
+public:
+    void add(double value)
+    {
+        int kept = 0;
+        for (int i = 0; i < count_; ++i) {
+            const Two step = two_sum(value, terms_[static_cast<std::size_t>(i)]);
+            if (step.rest != 0.0) terms_[static_cast<std::size_t>(kept++)] = step.rest;
+            value = step.sum;
+        }
+        if (value != 0.0) {
+            assert(kept < static_cast<int>(terms_.size()));
+            terms_[static_cast<std::size_t>(kept++)] = value;
+        }
+        count_ = kept;
+    }
+    /// Adds a * b * c exactly, for a and b given as unevaluated sums.
+    void add_product(const Two& a, const Two& b, double c)
+    {
+        for (const double x : {a.sum, a.rest})
+            for (const double y : {b.sum, b.rest}) {
+                const Two xy = two_product(x, y);
+                for (const double part : {xy.sum, xy.rest}) {
+                    const Two product = two_product(part, c);
+                    add(product.rest);
+                    add(product.sum);
+                }
+            }
+    }
+    int sign() const
+    {
+        if (count_ == 0) return 0;
+        return terms_[static_cast<std::size_t>(count_ - 1)] > 0.0 ? 1 : -1;  // the largest outweighs all others
+    }
+
+private:
+    std::array<double, 128> terms_{};  // six products of 16 terms each are 96
+    int count_ = 0;
+};
+
+}  // namespace
+
+int exact_side(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& origin, const glm::dvec3& direction)
+{
+    Two p[3], q[3];
+    for (int axis = 0; axis < 3; ++axis) {
+        p[axis] = two_sum(a[axis], -origin[axis]);
+        q[axis] = two_sum(b[axis], -origin[axis]);
+    }
+    Expansion det;
+    for (int axis = 0; axis < 3; ++axis) {
+        const int next = (axis + 1) % 3, last = (axis + 2) % 3;
+        det.add_product(p[next], q[last], direction[axis]);
+        det.add_product(p[last], q[next], -direction[axis]);
+    }
+    return det.sign();
+}
+
+}  // namespace firstray

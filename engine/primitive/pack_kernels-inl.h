@@ -1,0 +1,138 @@
+// Wide kernels: one ray against sixteen triangles or boxes. Included once per instruction set (no include guard of the
+// usual kind); what they return does not depend on it.
+#if defined(FIRSTRAY_PACK_KERNELS_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef FIRSTRAY_PACK_KERNELS_INL_H_
+#undef FIRSTRAY_PACK_KERNELS_INL_H_
+#else
+#define FIRSTRAY_PACK_KERNELS_INL_H_
+#endif
+
+#include <hwy/highway.h>
+
+#include "engine/core/search_ray.h"
+#include "engine/primitive/triangle_pack.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace firstray {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+using PackLanes = hn::CappedTag<float, pack_size>;
+
+/// A mask of lanes as bits.
+template <class D, class Mask>
+HWY_INLINE std::uint32_t bits_of(D d, Mask mask)
+{
+    alignas(8) std::uint8_t bytes[8] = {};
+    hn::StoreMaskBits(d, mask, bytes);
+    std::uint32_t bits;
+    __builtin_memcpy(&bits, bytes, sizeof bits);
+    return bits & ((2u << (hn::Lanes(d) - 1)) - 1);
+}
+
+/// A ray as the triangle filter sees it: sheared so that it points along its major axis, where a triangle becomes flat.
+/// source  S. Woop, C. Benthin, I. Wald, "Watertight Ray/Triangle Intersection", JCGT 2(1), 2013 (the shear; here it
+/// only
+///         chooses what the exact test looks at, so its errors are bounded instead of avoided)
+struct FilterRay {
+    int x, y, z;             ///< axes: z is the major one
+    float slope_x, slope_y;  ///< of the ray: dx / dz, dy / dz
+    float start_x, start_y;  ///< where it meets z = 0
+    float error_per_edge, error;
+};
+
+/// largest  the structure's largest coordinate
+/// loose    admit also what Precision::fast may take for a hit
+template <typename Real>
+HWY_INLINE FilterRay make_filter_ray(const SearchRay<Real>& ray, float largest, bool loose)
+{
+    const glm::dvec3 o(ray.origin), d(ray.direction), along = glm::abs(d);
+    FilterRay f;
+    f.z = along.x > along.y ? (along.x > along.z ? 0 : 2) : (along.y > along.z ? 1 : 2);
+    f.x = f.z == 2 ? 0 : f.z + 1;
+    f.y = f.x == 2 ? 0 : f.x + 1;
+    const double inverse = 1.0 / d[f.z], slope_x = d[f.x] * inverse, slope_y = d[f.y] * inverse;
+    f.slope_x = static_cast<float>(slope_x);
+    f.slope_y = static_cast<float>(slope_y);
+    f.start_x = static_cast<float>(o[f.x] - slope_x * o[f.z]);
+    f.start_y = static_cast<float>(o[f.y] - slope_y * o[f.z]);
+    // A sheared vertex is off by at most 16 half ulps of the largest coordinate (1 for the slope, 2 or 3 for the
+    // product and difference, 6 for the start, 4 for the last difference, 2 for rounding the vertex where it came from
+    // double). Corners of a triangle that the ray meets are within 2 edges of the ray, so the side's error is at most
+    // 12 * off * edge + 2 * off^2.
+    const float off = largest * 0x1p-20f;
+    f.error_per_edge = 12.0f * off;
+    f.error = 2.0f * off * off + std::numeric_limits<float>::min();
+    if (loose) {
+        const float reach = static_cast<float>(std::max(std::max(std::abs(o.x), std::abs(o.y)), std::abs(o.z)));
+        f.error_per_edge += side_error<float> * (largest + reach);
+    }
+    return f;
+}
+
+/// The lanes of a pack that the ray may meet: every one that the test accepts, and few others.
+HWY_INLINE std::uint32_t candidates(const TrianglePack& pack, const FilterRay& ray)
+{
+    const PackLanes d;
+    const auto slope_x = hn::Set(d, ray.slope_x), slope_y = hn::Set(d, ray.slope_y);
+    const auto start_x = hn::Set(d, ray.start_x), start_y = hn::Set(d, ray.start_y);
+    const auto per_edge = hn::Set(d, ray.error_per_edge), least_error = hn::Set(d, ray.error);
+    std::uint32_t found = 0;
+    for (int lane = 0; lane < pack_size; lane += static_cast<int>(hn::Lanes(d))) {
+        const auto along = [&](int corner, int axis) HWY_ATTR { return hn::Load(d, pack.v[corner][axis] + lane); };
+        const auto z0 = along(0, ray.z), z1 = along(1, ray.z), z2 = along(2, ray.z);
+        const auto x0 = hn::Sub(hn::NegMulAdd(slope_x, z0, along(0, ray.x)), start_x);
+        const auto y0 = hn::Sub(hn::NegMulAdd(slope_y, z0, along(0, ray.y)), start_y);
+        const auto x1 = hn::Sub(hn::NegMulAdd(slope_x, z1, along(1, ray.x)), start_x);
+        const auto y1 = hn::Sub(hn::NegMulAdd(slope_y, z1, along(1, ray.y)), start_y);
+        const auto x2 = hn::Sub(hn::NegMulAdd(slope_x, z2, along(2, ray.x)), start_x);
+        const auto y2 = hn::Sub(hn::NegMulAdd(slope_y, z2, along(2, ray.y)), start_y);
+        const auto u = hn::NegMulAdd(x2, y1, hn::Mul(x1, y2));
+        const auto v = hn::NegMulAdd(x0, y2, hn::Mul(x2, y0));
+        const auto w = hn::NegMulAdd(x1, y0, hn::Mul(x0, y1));
+        const auto least = hn::Min(hn::Min(u, v), w), most = hn::Max(hn::Max(u, v), w);
+        const auto error = hn::MulAdd(per_edge, hn::Load(d, pack.edge + lane), least_error);
+        const auto maybe = hn::Or(hn::Ge(least, hn::Neg(error)), hn::Le(most, error));
+        found |= bits_of(d, maybe) << lane;
+    }
+    return found;
+}
+
+/// A ray as boxes and grids see it. It starts where the ray enters the structure, at `shift` along the ray, so that its
+/// numbers are no larger than the structure's; its own t, walk t, counts from there.
+struct WalkRay {
+    alignas(16) float origin[4];  ///< x, y, z, unused
+    alignas(16) float direction[4];
+    alignas(16) float inverse[4];  ///< 1 / direction, limited so that no product overflows
+    double shift = 0.0;
+    float t_pad = 0.0f;  ///< walk t in which the ray passes the structure's pad
+};
+
+/// Which boxes of a block the ray may meet between two walk ts; entries gets where it enters each.
+HWY_INLINE std::uint32_t boxes_met(const PackBoxes& boxes, const WalkRay& ray, float t_begin, float t_end,
+                                   float* HWY_RESTRICT entries)
+{
+    const PackLanes d;
+    std::uint32_t found = 0;
+    for (int lane = 0; lane < pack_size; lane += static_cast<int>(hn::Lanes(d))) {
+        auto enter = hn::Set(d, t_begin), leave = hn::Set(d, t_end);
+        for (int axis = 0; axis < 3; ++axis) {
+            const bool up = ray.inverse[axis] > 0.0f;
+            const auto inverse = hn::Set(d, ray.inverse[axis]);
+            const auto shift = hn::Set(d, -ray.origin[axis] * ray.inverse[axis]);
+            const auto near = hn::Load(d, (up ? boxes.lo : boxes.hi)[axis] + lane);
+            const auto far = hn::Load(d, (up ? boxes.hi : boxes.lo)[axis] + lane);
+            enter = hn::Max(enter, hn::MulAdd(near, inverse, shift));
+            leave = hn::Min(leave, hn::MulAdd(far, inverse, shift));
+        }
+        hn::Store(enter, d, entries + lane);
+        found |= bits_of(d, hn::Le(enter, leave)) << lane;
+    }
+    return found;
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace firstray
+HWY_AFTER_NAMESPACE();
+
+#endif  // include guard per instruction set

@@ -1,0 +1,57 @@
+#pragma once
+#include <cstdint>
+
+#include "engine/core/ray_tile.h"
+#include "engine/primitive/triangle.h"
+
+namespace firstray {
+
+inline constexpr int pack_size = 16;
+
+/// Marks, in a pack's id, a primitive that transmits light; ids are below it.
+inline constexpr std::uint32_t transmitting_bit = 0x80000000u;
+
+/// Sixteen triangles, structure of arrays, for one ray to be tested against all of them. Unused lanes hold NaN
+/// vertices, which no comparison accepts, and the id no_primitive.
+struct alignas(64) TrianglePack {
+    float v[3][3][pack_size];  ///< corner, axis, lane
+    float edge[pack_size];     ///< longest_edge
+    std::uint32_t id[pack_size];
+
+    RootTriangle<float> triangle(int lane) const
+    {
+        RootTriangle<float> t;
+        for (int corner = 0; corner < 3; ++corner)
+            t.v[corner] = {v[corner][0][lane], v[corner][1][lane], v[corner][2][lane]};
+        t.edge = edge[lane];
+        return t;
+    }
+    void set(int lane, const glm::vec3& v0, const glm::vec3& v1, const glm::vec3& v2, std::uint32_t id_and_bit)
+    {
+        for (int axis = 0; axis < 3; ++axis) {
+            v[0][axis][lane] = v0[axis];
+            v[1][axis][lane] = v1[axis];
+            v[2][axis][lane] = v2[axis];
+        }
+        edge[lane] = longest_edge<float>(v0, v1, v2);
+        id[lane] = id_and_bit;
+    }
+    void clear(int lane)
+    {
+        const glm::vec3 nowhere(std::numeric_limits<float>::quiet_NaN());
+        set(lane, nowhere, nowhere, nowhere, no_primitive);
+    }
+};
+
+/// Boxes of up to sixteen packs, widened by the structure's pad; unused ones are empty.
+struct alignas(64) PackBoxes {
+    float lo[3][pack_size], hi[3][pack_size];
+};
+
+/// Whether a mask admits a primitive, by the mark in its id.
+inline bool admits(RayMask mask, bool transmits)
+{
+    return mask == RayMask::all || (mask == RayMask::transmitting) == transmits;
+}
+
+}  // namespace firstray

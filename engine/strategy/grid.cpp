@@ -1,0 +1,72 @@
+#include "engine/strategy/grid.h"
+
+#include <algorithm>
+
+#include "engine/grid/build.h"
+#include "engine/grid/search.h"
+
+namespace firstray {
+namespace {
+
+GridOptions grid_options(const StrategyOptions& options)
+{
+    GridOptions grid;
+    if (options.grid_density > 0.0f) grid.density = options.grid_density;
+    if (options.max_list > 0) grid.max_list = options.max_list;
+    grid.depth = options.grid_depth;
+    return grid;
+}
+
+template <typename Real>
+class GridStrategy final : public Strategy<Real> {
+public:
+    GridStrategy(const Scene& scene, const StrategyOptions& options) : options_(options), geometry_(scene) {}
+
+    void update(const Pose& pose) override
+    {
+        structure_ = {};  // given back first: the old and the new one are never held together
+        geometry_.update(pose, options_.executor);
+        structure_ = build_grid(geometry_, grid_options(options_), options_.executor, peak_bytes_);
+    }
+    void closest(RayTile<Real>& rays) const override { search_closest(target(), rays); }
+    void occluded(RayTile<Real>& rays) const override { search_any(target(), rays); }
+    StructureReport report() const override;
+
+private:
+    SearchTarget<Real> target() const { return {&structure_, &geometry_, options_.precision}; }
+
+    StrategyOptions options_;
+    RootGeometry<Real> geometry_;
+    GridStructure structure_;
+    std::uint64_t peak_bytes_ = 0;
+};
+
+template <typename Real>
+StructureReport GridStrategy<Real>::report() const
+{
+    StructureReport report;
+    report.grids = structure_.grids.empty() ? 0 : 1;
+    report.subgrids = structure_.grids.size() - report.grids;
+    report.voxels = structure_.cells.size();
+    report.filled_voxels = structure_.lists.size() + report.subgrids;
+    report.references = structure_.references;
+    report.primitives = geometry_.triangles().size() + geometry_.quadrics().size();
+    report.bytes = structure_.bytes() + geometry_.bytes();
+    report.peak_bytes = peak_bytes_;
+    report.depth = structure_.depth;
+    report.largest_list = structure_.largest_list;
+    return report;
+}
+
+}  // namespace
+
+template <typename Real>
+std::unique_ptr<Strategy<Real>> make_grid(const Scene& scene, const StrategyOptions& options)
+{
+    return std::make_unique<GridStrategy<Real>>(scene, options);
+}
+
+template std::unique_ptr<Strategy<float>> make_grid(const Scene&, const StrategyOptions&);
+template std::unique_ptr<Strategy<double>> make_grid(const Scene&, const StrategyOptions&);
+
+}  // namespace firstray

@@ -1,0 +1,46 @@
+#include "bench/firstray/progress.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <sstream>
+
+#include "bench/firstray/words.h"
+
+namespace firstray::command {
+namespace {
+
+TEST_CASE("progress is one rewritten line on a terminal, lines elsewhere, nothing when never")
+{
+    struct Case {
+        std::string mode;
+        bool terminal;
+        int lines, returns;
+    };
+    for (const auto& [mode, terminal, lines, returns] : {Case{"auto", true, 0, 3}, Case{"auto", false, 2, 0},
+                                                         Case{"always", false, 2, 0}, Case{"never", true, 0, 0}}) {
+        CAPTURE(mode);
+        CAPTURE(terminal);
+        std::ostringstream err;
+        {
+            Progress progress(err, progress_style(mode, terminal), 2);
+            progress.frame_done(0);
+            progress.frame_done(10);
+        }
+        const std::string text = err.str();
+        CHECK(std::count(text.begin(), text.end(), '\n') == lines);
+        CHECK(std::count(text.begin(), text.end(), '\r') == returns);  // the last one clears the line
+        CHECK((text.find("frame 10 (2/2), 100 %, 0:00 left") != std::string::npos) == (lines + returns > 0));
+    }
+    CHECK_THROWS_AS(progress_style("sometimes", true), UsageError);
+}
+
+TEST_CASE("time left is told in hours, minutes and seconds")
+{
+    CHECK(format_duration(0.4) == "0:00");
+    CHECK(format_duration(59.6) == "1:00");
+    CHECK(format_duration(3725.0) == "1:02:05");
+}
+
+}  // namespace
+}  // namespace firstray::command

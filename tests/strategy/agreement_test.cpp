@@ -1,0 +1,205 @@
+#include <doctest/doctest.h>
+
+#include "bench/strategies.h"
+#include "engine/core/simd.h"
+#include "tests/support/test_rays.h"
+
+using namespace firstray;
+using namespace firstray::test;
+
+namespace {
+
+template <typename Real>
+using MakeStrategy = std::unique_ptr<Strategy<Real>> (*)(const Scene&, const StrategyOptions&);
+
+template <typename Real>
+MakeStrategy<Real> maker(const StrategyEntry& entry)
+{
+    if constexpr (std::is_same_v<Real, float>)
+        return entry.make;
+    else
+        return entry.make_double;
+}
+
+/// Rays whose nearest hit is not, bit for bit, the list's; or whose occlusion differs.
+template <typename Real>
+int differences(const Strategy<Real>& list, const Strategy<Real>& other, const std::vector<TestRay>& rays, int& hits)
+{
+    int different = 0;
+    for (const RayMask mask : {RayMask::all, RayMask::opaque, RayMask::transmitting})
+        for (std::size_t first = 0; first < rays.size(); first += RayTile<Real>::capacity) {
+            const auto expected = make_tile<Real>(rays, first, mask), found = make_tile<Real>(rays, first, mask),
+                       any = make_tile<Real>(rays, first, mask);
+            list.closest(*expected);
+            other.closest(*found);
+            other.occluded(*any);
+            for (std::size_t i = 0; i < static_cast<std::size_t>(expected->count); ++i) {
+                const bool hit = expected->primitive[i] != no_primitive;
+                hits += hit;
+                bool same = expected->primitive[i] == found->primitive[i] && expected->t_max[i] == found->t_max[i] &&
+                            hit == (any->primitive[i] != no_primitive);
+                if (hit) same = same && expected->u[i] == found->u[i] && expected->v[i] == found->v[i];
+                different += !same;
+            }
+        }
+    return different;
+}
+
+/// Checks every strategy of ours against the list on one scene.
+template <typename Real>
+void check_agreement(const Scene& scene, const std::vector<TestRay>& rays, StrategyOptions options, int& hits)
+{
+    const Pose now = pose(scene, scene.start);
+    const auto list = maker<Real>(*find_strategy("list"))(scene, options);
+    list->update(now);
+    for (const StrategyEntry& entry : strategies()) {
+        if (entry.peer || entry.name == "list") continue;
+        CAPTURE(entry.name);
+        const auto strategy = maker<Real>(entry)(scene, options);
+        strategy->update(now);
+        CHECK(differences(*list, *strategy, rays, hits) == 0);
+    }
+}
+
+void check_all_precisions(const Scene& scene, const std::vector<TestRay>& rays, int& hits)
+{
+    for (const Precision precision : {Precision::fast, Precision::robust}) {
+        CAPTURE(static_cast<int>(precision));
+        check_agreement<float>(scene, rays, {.precision = precision}, hits);
+    }
+    check_agreement<double>(scene, rays, {.precision = Precision::double_}, hits);
+}
+
+}  // namespace
+
+TEST_CASE("every strategy finds the hits that testing all primitives finds, bit for bit, in every precision")
+{
+    int hits = 0;
+    for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+        CAPTURE(seed);
+        const Scene scene =
+            random_scene(seed, seed % 3 == 0 ? 30 : 1200, seed % 4 == 0 ? glm::dvec3(3e4) : glm::dvec3(0));
+        check_all_precisions(scene, awkward_rays(seed, scene, 1024), hits);
+    }
+    CHECK(hits > 30000);
+    MESSAGE("0 differences expected among " << hits << " hits");
+}
+
+TEST_CASE("every shape of grid finds the same hits")
+{
+    int hits = 0;
+    const Scene scene = random_scene(77, 1500);
+    const std::vector<TestRay> rays = awkward_rays(78, scene, 1024);
+    for (const float density : {0.001f, 0.03f, 1.0f, 8.0f})
+        for (const int max_list : {1, 10, 300})
+            for (const int depth : {1, 2, 4}) {
+                CAPTURE(density);
+                CAPTURE(max_list);
+                CAPTURE(depth);
+                check_agreement<float>(scene, rays,
+                                       {.grid_density = density, .max_list = max_list, .grid_depth = depth}, hits);
+            }
+    CHECK(hits > 50000);
+}
+
+TEST_CASE("every instruction set finds the same hits")
+{
+    const Scene scene = random_scene(5, 1500);
+    const std::vector<TestRay> rays = awkward_rays(6, scene, 1024);
+    const Pose now = pose(scene, 0.0);
+    std::unique_ptr<RayTile<float>> expected;
+    REQUIRE(!instruction_sets().empty());
+    for (const std::string& set : instruction_sets()) {
+        CAPTURE(set);
+        use_instruction_set(set);
+        CHECK(instruction_set() == set);
+        for (const StrategyEntry& entry : strategies()) {
+            if (entry.peer) continue;
+            CAPTURE(entry.name);
+            const auto strategy = entry.make(scene, {});
+            strategy->update(now);
+            auto tile = make_tile<float>(rays, 0);
+            strategy->closest(*tile);
+            if (!expected) {
+                expected = std::move(tile);
+                continue;
+            }
+            int different = 0;
+            for (std::size_t i = 0; i < rays.size(); ++i)
+                different += tile->primitive[i] != expected->primitive[i] || tile->t_max[i] != expected->t_max[i];
+            CHECK(different == 0);
+        }
+    }
+    use_instruction_set("");
+}
+
+TEST_CASE("no ray from inside leaves a closed mesh, wherever it stands")
+{
+    Random random(3);
+    for (const double offset : {0.0, 1e3, 2.7e5}) {
+        CAPTURE(offset);
+        const Scene scene = sphere_mesh(16, 100.0, glm::dvec3(offset, -offset * 0.5, offset * 0.25));
+        const Pose now = pose(scene, 0.0);
+        const glm::dvec3 centre = (scene.positions[0] + scene.positions[1]) * 0.5;
+        std::vector<TestRay> rays;
+        for (int i = 0; i < 20480; ++i) {
+            const TriangleIndices& t =
+                scene.triangles[random.below(static_cast<std::uint32_t>(scene.triangles.size()))];
+            const glm::dvec3 a(glm::vec3(scene.positions[t.vertex.x])), b(glm::vec3(scene.positions[t.vertex.y]));
+            const glm::dvec3 from = glm::vec3(centre + random.in_cube(40.0));
+            rays.push_back({from, (i % 2 ? a : glm::mix(a, b, random.unit())) - from});
+        }
+        for (const StrategyEntry& entry : strategies()) {
+            if (entry.peer) continue;
+            CAPTURE(entry.name);
+            const auto strategy = entry.make(scene, {});
+            strategy->update(now);
+            int misses = 0;
+            for (std::size_t first = 0; first < rays.size(); first += RayTile<float>::capacity) {
+                const auto tile = make_tile<float>(rays, first);
+                strategy->closest(*tile);
+                for (int i = 0; i < tile->count; ++i)
+                    misses += tile->primitive[static_cast<std::size_t>(i)] == no_primitive;
+            }
+            CHECK(misses == 0);
+        }
+    }
+}
+
+TEST_CASE("rays that are not rays meet nothing")
+{
+    const Scene scene = random_scene(2, 200);
+    const double nan = std::numeric_limits<double>::quiet_NaN(), infinity = std::numeric_limits<double>::infinity();
+    const std::vector<TestRay> rays = {
+        {{nan, 0, 0}, {1, 0, 0}},      {{0, 0, 0}, {0, nan, 1}},       {{infinity, 0, 0}, {-1, 0, 0}},
+        {{0, 0, 0}, {infinity, 0, 0}}, {{0, 0, 0}, {0, 0, 0}},         {{0, 0, 0}, {1, 1, 1}, nan},
+        {{0, 0, 0}, {1, 1, 1}, 5, 4},  {{0, 0, 0}, {1, 1, 1}, 0, nan}, {{0, 0, 0}, {-0.0, 0, -0.0}}};
+    const Pose now = pose(scene, 0.0);
+    for (const StrategyEntry& entry : strategies()) {
+        CAPTURE(entry.name);
+        const auto strategy = entry.make(scene, {});
+        strategy->update(now);
+        const auto tile = make_tile<float>(rays, 0), any = make_tile<float>(rays, 0);
+        strategy->closest(*tile);
+        strategy->occluded(*any);
+        for (std::size_t i = 0; i < rays.size(); ++i) {
+            CAPTURE(i);
+            CHECK(tile->primitive[i] == no_primitive);
+            CHECK(any->primitive[i] == no_primitive);
+        }
+    }
+}
+
+TEST_CASE("an empty scene is no trouble")
+{
+    const Scene scene = SmallScene().build();
+    const Pose now = pose(scene, 0.0);
+    for (const StrategyEntry& entry : strategies()) {
+        CAPTURE(entry.name);
+        const auto strategy = entry.make(scene, {});
+        strategy->update(now);
+        const auto tile = make_tile<float>({{{0, 0, 0}, {1, 2, 3}}}, 0);
+        strategy->closest(*tile);
+        CHECK(tile->primitive[0] == no_primitive);
+    }
+}
