@@ -1,3 +1,4 @@
+# shellcheck shell=bash
 # Sourced by tests/run and bench/run: finds what building needs, configures, builds. Expects `set -euo pipefail`.
 # After the first run nothing here needs the network or root.
 
@@ -55,9 +56,9 @@ quietly() {
     return "$status"
 }
 
-# Configures build/ and builds the given targets, or everything.
+# Configures build/ and builds the given targets.
 build_targets() {
     ensure_packages
     quietly cmake -S "$root" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=RelWithDebInfo
-    cmake --build "$build" ${1:+--target "$@"}
+    cmake --build "$build" --target "$@"
 }

@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <limits>
 #include <new>
 
 #include "bench/firstray/jobs.h"
@@ -71,7 +72,7 @@ void add_render(CLI::App& app, RenderJob& job)
     add(app, "--output", job.output, "NAME", "a run of # is the frame; default SCENE.####.png here, .exr with --aov");
     add(app, "--stats", job.stats, "FILE", "write times, rays and structure of every frame as JSON");
     app.add_flag("--table", job.table, "print a line of times per frame to standard output");
-    add(app, "--progress", job.progress, "WHEN", "auto, always or never; default auto");
+    add(app, "--progress", job.progress, "WHEN", "auto (not beside --table), always or never; default auto");
     app.footer(render_examples);
 }
 
@@ -85,7 +86,7 @@ void add_info(CLI::App& app, InfoJob& job)
 void add_trace(CLI::App& app, TraceJob& job)
 {
     add_scene(app, job.scene);
-    add(app, "--frame", job.frame, "N", "the scene's frame, from 0; required");
+    add_int(app, "--frame", job.frame, 0, std::numeric_limits<int>::max(), "the scene's frame, from 0; required");
     add(app, "--rays", job.rays, "FILE", "rays, - is standard input; required");
     add(app, "--output", job.output, "FILE", "answers; default: standard output");
     add_search(app, job.search);

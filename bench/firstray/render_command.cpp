@@ -44,6 +44,13 @@ Plan plan_of(const RenderJob& job, const std::vector<FrameRange>& ranges, const 
     return plan;
 }
 
+/// A table tells by itself how far it is.
+ProgressStyle style_of(const RenderJob& job, bool terminal)
+{
+    const ProgressStyle style = progress_style(job.progress, terminal);
+    return job.table && job.progress == "auto" ? ProgressStyle::never : style;
+}
+
 /// Refuses what needs no scene to be refused: a large scene takes its time to read.
 std::vector<FrameRange> check_words(const RenderJob& job, bool terminal)
 {
@@ -106,7 +113,7 @@ Totals render_frames(const RenderJob& job, const Plan& plan, FrameLoop<Real>& lo
                      Streams streams)
 {
     Totals totals;
-    Progress progress(streams.err, progress_style(job.progress, streams.terminal), plan.frames.size());
+    Progress progress(streams.err, style_of(job, streams.terminal), plan.frames.size());
     SingularWarnings warnings;
     Frame picture;
     if (job.table) streams.out << table_heading();

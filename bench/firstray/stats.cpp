@@ -6,6 +6,7 @@
 
 #include "bench/firstray/words.h"
 #include "engine/core/pending_file.h"
+#include "engine/core/simd.h"
 
 namespace firstray::command {
 namespace {
@@ -66,6 +67,7 @@ Json describe_machine()
 {
     return {{"cpu", cpu_model()},
             {"threads", Executor(0).threads()},
+            {"instruction_set", instruction_set()},
             {"compiler", compiler},
             {"version", FIRSTRAY_VERSION}};
 }

@@ -29,7 +29,7 @@ struct FrameStats {
 
 Json to_json(const FrameStats& stats);
 
-/// The processor, the threads it offers, the compiler and our version.
+/// The processor, the threads and instruction set it offers, the compiler and our version.
 Json describe_machine();
 
 /// Heading and rows of the table that --table prints, one aligned line each.

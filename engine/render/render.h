@@ -31,7 +31,8 @@ struct RayCounts {
 /// The picture does not depend on the number of threads or on the strategy.
 /// textures  by Scene::textures
 /// frame     resized; every layer that the options ask for is filled
-/// throws    what the strategy throws
+/// throws    std::invalid_argument for options out of range or textures that are not as many as the scene's;
+///           what the strategy throws
 template <typename Real>
 RayCounts render(const Strategy<Real>& strategy, const Pose& pose, std::span<const Texture> textures,
                  const RenderOptions& options, const Executor& executor, Frame& frame);

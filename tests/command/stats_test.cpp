@@ -50,11 +50,11 @@ TEST_CASE("a frame's statistics have the agreed names")
     CHECK(json["image_hash"] == "0000000000000abc");
 }
 
-TEST_CASE("the machine is described by processor, threads, compiler and version")
+TEST_CASE("the machine is described by processor, threads, instruction set, compiler and version")
 {
     const Json machine = describe_machine();
     CHECK(machine["threads"] >= 1);
-    for (const char* name : {"cpu", "compiler", "version"}) {
+    for (const char* name : {"cpu", "instruction_set", "compiler", "version"}) {
         CAPTURE(name);
         CHECK_FALSE(machine[name].get<std::string>().empty());
     }

@@ -1,0 +1,228 @@
+#include "bench/firstray/command.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <vector>
+
+#include "bench/firstray/words.h"
+#include "tests/support/temp_folder.h"
+
+namespace firstray::command {
+namespace {
+
+/// A unit square in the plane z = 0 that moves along x, from 0 to 4 within 5 frames, in front of a still triangle.
+constexpr std::string_view moving_square = R"(
+v from 0 0 10 at 0 0 0 up 0 1 0 angle 60 hither 0.1 resolution 16 12
+l 0 10 10
+a 0 4 5
+fm 0 0 0 1 0.5 0.25 0 0 0 0 0 0
+p 3  -5 -5 -1  5 -5 -1  0 5 -1
+x mover {
+p 4  -0.5 -0.5 0  0.5 -0.5 0  0.5 0.5 0  -0.5 0.5 0
+}
+k mover {
+transl 7  -1 -1 0 0 0 0 0  0 0 0 0 0 0 0  1 1 0 0 0 0 0  2 2 0 0 0 0 0  3 3 0 0 0 0 0  4 4 0 0 0 0 0  5 5 0 0 0 0 0
+}
+)";
+
+struct Outcome {
+    int code = 0;
+    std::string out, err;
+};
+
+Outcome call(const std::vector<std::string>& arguments)
+{
+    std::ostringstream out, err;
+    const int code = run(arguments, {out, err});
+    return {code, out.str(), err.str()};
+}
+
+Outcome call_line(const std::string& line)
+{
+    std::vector<std::string> words;
+    for (const std::string_view word : split(line, ' ')) words.emplace_back(word);
+    return call(words);
+}
+
+nlohmann::json read_json(const std::filesystem::path& file)
+{
+    std::ifstream in(file);
+    return nlohmann::json::parse(in);
+}
+
+TEST_CASE("a command line that cannot be taken is told in one line and exits with 2")
+{
+    const std::pair<std::string, std::string> cases[] = {
+        {"rendr a.aff", "did you mean render?"},
+        {"render", "SCENE"},
+        {"render a.aff --strateg grid", "unknown option --strateg; did you mean --strategy?"},
+        {"render a.aff b.aff", "'b.aff' was not expected"},
+        {"render a.aff --strategy gird", "did you mean grid?"},
+        {"render a.aff --precision exact", "expected fast, robust or double"},
+        {"render a.aff --frames 3-1", "ends before it begins"},
+        {"render a.aff --size 800", "expected WIDTHxHEIGHT"},
+        {"render a.aff --size 0x5", "from 1 to 16384"},
+        {"render a.aff --depth -1", "--depth"},
+        {"render a.aff --spp 1.5", "--spp"},
+        {"render a.aff --threads many", "--threads"},
+        {"render a.aff --aov depth", "expected distance, primitive"},
+        {"render a.aff --output a.jpg", ".exr or .png"},
+        {"render a.aff --progress often", "expected auto, always or never"},
+        {"trace a.aff --rays r.csv", "needs --frame"},
+        {"trace a.aff --frame 0", "needs --rays"},
+    };
+    for (const auto& [line, message] : cases) {
+        CAPTURE(line);
+        const Outcome outcome = call_line(line);
+        CAPTURE(outcome.err);
+        CHECK(outcome.code == 2);
+        CHECK(outcome.out.empty());
+        CHECK(outcome.err.starts_with("firstray: "));
+        CHECK(outcome.err.find(message) != std::string::npos);
+        CHECK(std::count(outcome.err.begin(), outcome.err.end(), '\n') == 1);
+    }
+    CHECK(call({}).code == 2);
+}
+
+TEST_CASE("help fits one screen, ends in two examples and exits with 0")
+{
+    for (const std::string command : {"render", "info", "trace"}) {
+        CAPTURE(command);
+        const Outcome outcome = call({command, "--help"});
+        CHECK(outcome.code == 0);
+        CHECK(outcome.err.empty());
+        CHECK(std::count(outcome.out.begin(), outcome.out.end(), '\n') <= 32);
+        const std::string examples = outcome.out.substr(outcome.out.find("Examples:\n") + 10);
+        CHECK(std::count(examples.begin(), examples.end(), '\n') == 2);
+    }
+    CHECK(call({"--version"}).out.starts_with("firstray 0."));
+}
+
+TEST_CASE("bad scenes, missing files and frames beyond the end have their own exit codes")
+{
+    const test::TempFolder folder;
+    const std::string bad = folder.write("bad.aff", "v from 0 0").string();
+    const std::string good = folder.write("good.aff", moving_square).string();
+    const std::string rays = folder.write("rays.csv", "1,2,3\n").string();
+    CHECK(call({"info", bad}).code == 3);
+    CHECK(call({"info", bad + "x"}).code == 4);
+    CHECK(call({"render", good, "--frames", "5"}).code == 2);
+    CHECK(call({"trace", good, "--frame", "0", "--rays", rays}).code == 3);
+    CHECK(call({"trace", good, "--frame", "0", "--rays", rays + "x"}).code == 4);
+    CHECK(call({"trace", good, "--frame", "-1", "--rays", rays}).code == 2);
+}
+
+TEST_CASE("frames rendered alone or in a row, by any strategy and number of threads, are the same picture")
+{
+    const test::TempFolder folder;
+    const std::string scene = folder.write("square.aff", moving_square).string();
+    const auto render = [&](const std::string& frames, const std::string& strategy, const std::string& threads) {
+        const auto stats = (folder.path() / "stats.json").string();
+        const Outcome outcome = call({"render", scene, "--frames", frames, "--strategy", strategy, "--threads", threads,
+                                      "--stats", stats, "--output", (folder.path() / "a.##.png").string()});
+        CAPTURE(outcome.err);
+        REQUIRE(outcome.code == 0);
+        return read_json(stats)["frames"];
+    };
+    const auto all = render("0-4", "list", "1");
+    REQUIRE(all.size() == 5);
+    CHECK(all[0]["image_hash"] != all[4]["image_hash"]);
+    CHECK(all[4]["rays"]["primary"] == 16 * 12);
+    CHECK(all[4]["time"] == 4.0);
+    CHECK(all[4]["total_ms"].get<double>() > 0.0);
+    for (const std::string strategy : {"list", "grid"})
+        for (const std::string threads : {"1", "2"}) {
+            CAPTURE(strategy);
+            CHECK(render("4", strategy, threads)[0]["image_hash"] == all[4]["image_hash"]);
+        }
+    CHECK(std::filesystem::is_regular_file(folder.path() / "a.04.png"));
+}
+
+TEST_CASE("when a frame cannot be written, those before it are in the statistics")
+{
+    const test::TempFolder folder;
+    const std::string scene = folder.write("square.aff", moving_square).string();
+    std::filesystem::create_directory(folder.path() / "a.2.png");
+    const auto stats = folder.path() / "stats.json";
+    const Outcome outcome = call({"render", scene, "--frames", "0-4", "--stats", stats.string(), "--output",
+                                  (folder.path() / "a.#.png").string(), "--progress", "never"});
+    CHECK(outcome.code == 4);
+    CHECK(outcome.err.find("a.2.png") != std::string::npos);
+    CHECK(read_json(stats)["frames"].size() == 2);
+    CHECK(std::filesystem::is_regular_file(folder.path() / "a.1.png"));
+}
+
+TEST_CASE("the table has a heading and a line per frame, and nothing else is on standard output")
+{
+    const test::TempFolder folder;
+    const std::string scene = folder.write("square.aff", moving_square).string();
+    const Outcome outcome = call({"render", scene, "--frames", "0-4:2", "--table", "--output",
+                                  (folder.path() / "a.#.exr").string(), "--aov", "distance,tests,time"});
+    CHECK(outcome.code == 0);
+    CHECK(std::count(outcome.out.begin(), outcome.out.end(), '\n') == 4);
+    CHECK(std::count(outcome.err.begin(), outcome.err.end(), '\n') == 1);
+    CHECK(outcome.err.starts_with("firstray: 3 frames, mean update "));
+}
+
+TEST_CASE("answer line k belongs to ray k in every precision and by every strategy")
+{
+    const test::TempFolder folder;
+    const std::string scene = folder.write("square.aff", moving_square).string();
+    // At frame 3 the square's centre is at x = 3. Group 0 is the still triangle.
+    const std::string rays =
+        folder
+            .write("rays.csv",
+                   "3.25,0.125,8,0,0,-2,0,inf\n100,0,8,0,0,-1,0,inf\n0,0,8,0,0,-1,0,inf\n0,0,8,0,0,-1,0,8.5\n")
+            .string();
+    for (const std::string strategy : {"list", "grid"})
+        for (const std::string precision : {"fast", "robust", "double"}) {
+            CAPTURE(strategy);
+            CAPTURE(precision);
+            const Outcome outcome = call({"trace", scene, "--frame", "3", "--rays", rays, "--precision", precision,
+                                          "--strategy", strategy, "--threads", "1"});
+            CHECK(outcome.code == 0);
+            const auto lines = split(outcome.out, '\n');
+            REQUIRE(lines.size() == 5);  // the last is what follows the last line end
+            CHECK(lines[0].starts_with("4,1,"));
+            CHECK(lines[1] == "inf,-1,-1,0,0");
+            CHECK(lines[2].starts_with("9,0,0,"));
+            CHECK(lines[3] == "inf,-1,-1,0,0");
+        }
+}
+
+TEST_CASE("answers go to the file asked for and then not to standard output")
+{
+    const test::TempFolder folder;
+    const std::string scene = folder.write("square.aff", moving_square).string();
+    const std::string rays = folder.write("rays.csv", "0,0,8,0,0,-1,0,8.5\n").string();
+    const auto answers = folder.path() / "hits.csv";
+    const Outcome outcome = call({"trace", scene, "--frame", "4", "--rays", rays, "--output", answers.string()});
+    CHECK(outcome.code == 0);
+    CHECK(outcome.out.empty());
+    CHECK(std::filesystem::file_size(answers) == std::string_view("inf,-1,-1,0,0\n").size());
+}
+
+TEST_CASE("info counts what the scene holds")
+{
+    const test::TempFolder folder;
+    const std::string scene = folder.write("square.aff", moving_square).string();
+    const auto info = nlohmann::json::parse(call({"info", scene, "--json"}).out);
+    CHECK(info["name"] == "square");
+    CHECK(info["triangles"] == 3);
+    CHECK(info["groups"]["static"] == 1);
+    CHECK(info["groups"]["moving"] == 1);
+    CHECK(info["transforms"] == 1);
+    CHECK(info["lights"] == 1);
+    CHECK(info["animation"]["frames"] == 5);
+    CHECK(info["resolution"] == nlohmann::json{16, 12});
+    CHECK(info["statements"]["p"] == 2);
+    CHECK(info["bounds"]["lo"] == nlohmann::json{-5.0, -5.0, -1.0});
+    CHECK(call({"info", scene}).out.find("triangles    3, 0 of them deforming") != std::string::npos);
+}
+
+}  // namespace
+}  // namespace firstray::command
