@@ -173,8 +173,7 @@ std::vector<Contender> make_contenders(const Scene& scene, const StrategyOptions
 Measurement measure(const Scene& scene, const MeasurePlan& plan)
 {
     const Executor executor(1);
-    StrategyOptions options;
-    options.precision = plan.precision;
+    StrategyOptions options = plan.options;
     options.executor = &executor;
 
     Measurement measurement;

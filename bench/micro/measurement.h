@@ -15,7 +15,7 @@ struct MeasurePlan {
     int rounds = 5;   ///< how often all strategies go through all frames
     int width = 800, height = 592;
     RayMask shadow_mask = RayMask::opaque;  ///< as the renderer asks; taken as `all` where nothing transmits
-    Precision precision = Precision::robust;
+    StrategyOptions options;  ///< of every strategy; the executor is the measurement's own
     const StrategyEntry* reference = nullptr;  ///< answers are checked against its; its hits make the shadow rays
     std::vector<const StrategyEntry*> contenders;
 };

@@ -18,7 +18,8 @@ namespace {
 
 constexpr const char* usage =
     "trace_bench [--scene=FILE]... [--strategies=a,b] [--base=embree] [--reference=NAME] [--rounds=5] [--frames=10]\n"
-    "            [--size=800x592] [--precision=robust|fast] [--shadow-mask=opaque|all] [Google Benchmark's own flags]\n"
+    "            [--size=800x592] [--precision=robust|fast] [--shadow-mask=opaque|all]\n"
+    "            [--grid-density=0.1] [--max-list=256] [--grid-depth=3] [Google Benchmark's own flags]\n"
     "Default scenes: BART's, found in the folder that FIRSTRAY_BART_DIR names. Default strategies: all but `list`.\n"
     "Shadow rays look at opaque primitives alone, as the renderer's do, or with --shadow-mask=all at all.\n"
     "The reference, whose answers the others must give, is by default the first strategy of our own.\n";
@@ -99,9 +100,15 @@ bool apply(std::string_view flag, std::string_view value, Settings& settings)
     else if (flag == "--size")
         apply_size(value, plan);
     else if (flag == "--precision")
-        plan.precision = choice<Precision>(flag, value, {"robust", Precision::robust}, {"fast", Precision::fast});
+        plan.options.precision = choice<Precision>(flag, value, {"robust", Precision::robust}, {"fast", Precision::fast});
     else if (flag == "--shadow-mask")
         plan.shadow_mask = choice<RayMask>(flag, value, {"all", RayMask::all}, {"opaque", RayMask::opaque});
+    else if (flag == "--grid-density")
+        plan.options.grid_density = std::stof(std::string(value));
+    else if (flag == "--max-list")
+        plan.options.max_list = whole_number(flag, value);
+    else if (flag == "--grid-depth")
+        plan.options.grid_depth = whole_number(flag, value);
     else if (flag == "--strategies")
         for (const std::string_view name : split(value, ',')) plan.contenders.push_back(entry_of(name));
     else
@@ -229,7 +236,7 @@ void describe(const Settings& settings)
     benchmark::AddCustomContext("frames", std::to_string(plan.frames));
     benchmark::AddCustomContext("rounds", std::to_string(plan.rounds));
     benchmark::AddCustomContext("picture", std::to_string(plan.width) + "x" + std::to_string(plan.height));
-    benchmark::AddCustomContext("precision", plan.precision == Precision::fast ? "fast" : "robust");
+    benchmark::AddCustomContext("precision", plan.options.precision == Precision::fast ? "fast" : "robust");
     benchmark::AddCustomContext("shadow_mask", plan.shadow_mask == RayMask::all ? "all" : "opaque");
     benchmark::AddCustomContext("ratios_to", settings.base);
     benchmark::AddCustomContext("reference", std::string(plan.reference->name));

@@ -1,15 +1,25 @@
 #include "engine/core/executor.h"
 
+#include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/info.h>
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
 
 #include <algorithm>
+#include <optional>
 
 namespace firstray {
 
 struct Executor::Arena {
-    explicit Arena(int threads) : arena(threads) {}
+    explicit Arena(int threads) : arena(threads)
+    {
+        // More threads than processors are had only when TBB is told so; the allowance lasts as long as this executor.
+        using oneapi::tbb::global_control;
+        const auto wanted = static_cast<std::size_t>(threads);
+        if (wanted > global_control::active_value(global_control::max_allowed_parallelism))
+            allowance.emplace(global_control::max_allowed_parallelism, wanted);
+    }
+    std::optional<oneapi::tbb::global_control> allowance;
     oneapi::tbb::task_arena arena;
 };
 

@@ -17,8 +17,8 @@ TriangleBoxOverlap::TriangleBoxOverlap(const glm::vec3& v0, const glm::vec3& v1,
     const float plane = glm::dot(normal_, v0);
     // A sliver's normal is mostly rounding: each component is off by up to 6 half ulps of edge^2, which tilts the
     // plane.
-    const float edge = longest_edge<float>(v0, v1, v2);
-    const float tilt = 0x1p-19f * edge * edge * (edge + std::max(std::max(size.x, size.y), size.z));
+    const float longest = longest_edge<float>(v0, v1, v2);
+    const float tilt = 0x1p-19f * longest * longest * (longest + std::max(std::max(size.x, size.y), size.z));
     nearest_ = plane - (std::max(reach.x, 0.0f) + std::max(reach.y, 0.0f) + std::max(reach.z, 0.0f)) - tilt;
     farthest_ = plane - (std::min(reach.x, 0.0f) + std::min(reach.y, 0.0f) + std::min(reach.z, 0.0f)) + tilt;
 
