@@ -21,7 +21,7 @@ struct SearchRay {
 
 /// Fills `ray` from a lane; false when it can meet nothing (NaN, infinite or zero direction, empty interval).
 template <typename Real>
-bool make_search_ray(const RayTile<Real>& tile, int lane, SearchRay<Real>& ray)
+[[gnu::always_inline]] inline bool make_search_ray(const RayTile<Real>& tile, int lane, SearchRay<Real>& ray)
 {
     ray.origin = tile.origin_of(lane);
     ray.direction = tile.direction_of(lane);
@@ -56,7 +56,7 @@ struct Hit {
 
 /// Puts a ray's answer into its lane; an answer whose t the tile cannot express is none.
 template <typename Real>
-void store_hit(const SearchRay<Real>& ray, const Hit<Real>& hit, RayTile<Real>& tile, int lane)
+[[gnu::always_inline]] inline void store_hit(const SearchRay<Real>& ray, const Hit<Real>& hit, RayTile<Real>& tile, int lane)
 {
     const auto i = static_cast<std::size_t>(lane);
     const Real t = ray.tile_t(hit.t);

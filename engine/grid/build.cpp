@@ -34,8 +34,12 @@ struct GridNode {
     }
 };
 
-template <typename Real>
-RootTriangle<float> rounded(const RootTriangle<Real>& t)
+RootTriangle<float> rounded(const RootTriangle<float>& t)
+{
+    return t;
+}
+
+RootTriangle<float> rounded(const RootTriangle<double>& t)
 {
     const glm::vec3 v0(t.v[0]), v1(t.v[1]), v2(t.v[2]);
     return {{v0, v1, v2}, longest_edge<float>(v0, v1, v2)};

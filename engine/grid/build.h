@@ -9,9 +9,9 @@ namespace firstray {
 
 /// What shapes a grid.
 struct GridOptions {
-    float density = 0.1f;      ///< cells of the top grid per primitive, > 0
+    float density = 0.15f;     ///< cells of the top grid per primitive, > 0
     float subdensity = 0.25f;  ///< cells of a subgrid per primitive in it, > 0
-    int max_list = 256;        ///< a voxel with more primitives gets a subgrid, if that makes progress
+    int max_list = 1024;       ///< a voxel with more primitives gets a subgrid, if that makes progress
     int depth = 3;             ///< levels of grids, >= 1
 };
 

@@ -54,8 +54,7 @@ Aabb fill_pack(TrianglePack& pack, std::span<const std::uint32_t> members, const
     Aabb box;
     int lane = 0;
     for (const std::uint32_t entry : members) {
-        const RootTriangle<float>& t = entries.triangles[entry];
-        pack.set(lane++, t.v[0], t.v[1], t.v[2], entries.ids[entry]);
+        pack.set(lane++, entries.triangles[entry], entries.ids[entry]);
         box.grow(clipped(entries.boxes[entry], voxel));
     }
     while (lane < pack_size) pack.clear(lane++);

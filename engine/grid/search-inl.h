@@ -10,6 +10,7 @@
 
 #include "engine/grid/search.h"
 #include "engine/grid/traverse-inl.h"
+#include "engine/primitive/intersect.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace firstray {
@@ -53,7 +54,9 @@ struct Search {
     void update_stop()
     {
         const double t = static_cast<double>(hit.t);
-        stop = static_cast<float>(t + std::abs(t) * t_slack - walk.shift) + walk.t_pad;
+        const double t_last = t + std::abs(t) * t_slack;
+        stop = static_cast<float>(t_last - walk.shift) + walk.t_pad;
+        filter.set_far_end(stop, target.structure->pad);
     }
 
     /// Takes a hit if it counts; returns whether the ray is done.
@@ -69,11 +72,12 @@ struct Search {
     HWY_INLINE bool pack(const TrianglePack& pack)
     {
         cost.add_tests(pack);
-        for (std::uint32_t lanes = candidates(pack, filter); lanes != 0; lanes &= lanes - 1) {
+        std::uint32_t lanes = candidates(pack, filter);
+        for (; lanes != 0; lanes &= lanes - 1) {
             const int lane = __builtin_ctz(lanes);
             const std::uint32_t marked = pack.id[lane];
-            if (!admits(mask, (marked & transmitting_bit) != 0)) continue;
             const PrimitiveId id = marked & ~transmitting_bit;
+            if (id == hit.id || !admits(mask, (marked & transmitting_bit) != 0)) continue;
             const TriangleHit<Real> found = intersect_lane(pack, lane, id);
             if (found.hit && offer(found.t, found.u, found.v, id)) return true;
         }
@@ -82,11 +86,10 @@ struct Search {
 
     TriangleHit<Real> intersect_lane(const TrianglePack& pack, int lane, PrimitiveId id) const
     {
-        if constexpr (std::is_same_v<Real, float>) {
-            return intersect(pack.triangle(lane), ray.origin, ray.direction, target.precision != Precision::fast);
-        } else {
-            return intersect(target.geometry->triangle(id), ray.origin, ray.direction);
-        }
+        if constexpr (std::is_same_v<Real, float>)
+            return intersect_precisely(pack.triangle(lane), ray, target.precision, hit.t);
+        else
+            return intersect_precisely(target.geometry->triangle(id), ray, target.precision, hit.t);
     }
 
     bool quadrics(const VoxelList& voxel)
@@ -137,7 +140,7 @@ struct Search {
 
 /// Moves the ray to where it enters the grid's box; false when it does not.
 template <typename Real>
-bool make_walk_ray(const SearchRay<Real>& ray, const Grid& top, float pad, WalkRay& walk)
+HWY_INLINE bool make_walk_ray(const SearchRay<Real>& ray, const Grid& top, float pad, WalkRay& walk)
 {
     const glm::dvec3 o(ray.origin), d(ray.direction), lo(top.lo), hi(top.hi());
     // A hit's t is off by its slack; one that lies before t_min by that much can still be found beyond it.
@@ -146,16 +149,12 @@ bool make_walk_ray(const SearchRay<Real>& ray, const Grid& top, float pad, WalkR
     const double wide = 2.0 * static_cast<double>(pad);
     double length = 0.0;
     for (int axis = 0; axis < 3; ++axis) {
-        const double inverse = 1.0 / d[axis];
-        double near = (lo[axis] - wide - o[axis]) * inverse, far = (hi[axis] + wide - o[axis]) * inverse;
-        if (near > far) std::swap(near, far);
-        if (d[axis] == 0.0) {
-            const bool within = o[axis] >= lo[axis] - wide && o[axis] <= hi[axis] + wide;
-            near = within ? -std::numeric_limits<double>::infinity() : std::numeric_limits<double>::infinity();
-            far = -near;
-        }
-        enter = std::max(enter, near);
-        leave = std::min(leave, far);
+        // A ray along a slab meets it everywhere or nowhere: its planes are crossed at minus and plus very far.
+        walk.exact_inverse[axis] = d[axis] != 0.0 ? 1.0 / d[axis] : 1e300;
+        const double a = (lo[axis] - wide - o[axis]) * walk.exact_inverse[axis];
+        const double b = (hi[axis] + wide - o[axis]) * walk.exact_inverse[axis];
+        enter = std::max(enter, std::min(a, b));
+        leave = std::min(leave, std::max(a, b));
         length = std::max(length, std::abs(d[axis]));
     }
     if (!(enter <= leave)) return false;
@@ -164,7 +163,7 @@ bool make_walk_ray(const SearchRay<Real>& ray, const Grid& top, float pad, WalkR
     for (int axis = 0; axis < 3; ++axis) {
         walk.origin[axis] = static_cast<float>(o[axis] + enter * d[axis]);
         walk.direction[axis] = static_cast<float>(d[axis]);
-        const float inverse = 1.0f / walk.direction[axis];
+        const float inverse = static_cast<float>(walk.exact_inverse[axis]);
         walk.inverse[axis] = std::abs(inverse) < 1e18f ? inverse : std::copysign(1e18f, inverse);
     }
     walk.origin[3] = walk.direction[3] = 0.0f;
@@ -179,7 +178,9 @@ HWY_INLINE void search_ray(const SearchTarget<Real>& target, const Resolver& res
     const GridStructure& structure = *target.structure;
     Search<query, Real, Cost> search{target, ray, tile.mask, cost, {}, {}, {ray.t_max}};
     if (!make_walk_ray(ray, structure.grids[0], structure.pad, search.walk)) return;
-    search.filter = make_filter_ray(ray, structure.largest, target.precision == Precision::fast);
+    search.filter =
+        make_filter_ray(ray, search.walk.exact_inverse, structure.largest, target.precision == Precision::fast);
+    search.filter.set_near_end(search.walk, structure.pad);
     search.update_stop();
     if (!search.list(structure.large, 0.0f))
         traverse(structure.grids[0], search.walk, 0.0f, search.stop, resolve, search);

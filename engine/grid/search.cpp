@@ -12,32 +12,40 @@ namespace firstray {
 namespace HWY_NAMESPACE {
 
 /// Everything is there: a cell's word says where.
-struct EagerResolver {
-    const GridStructure& structure;
-
-    CellWord word(std::int32_t cell) const { return structure.cells[static_cast<std::size_t>(cell)]; }
+class EagerResolver {
+public:
+    explicit EagerResolver(const GridStructure& structure)
+        : cells_(structure.cells.data()), lists_(structure.lists.data()), grids_(structure.grids.data())
+    {
+    }
+    CellWord word(std::int32_t cell) const { return cells_[cell]; }
     Voxel voxel(CellWord word, std::int32_t /*cell*/) const
     {
-        if (word.is_subgrid()) return {nullptr, &structure.grids[word.index()]};
-        return {&structure.lists[word.index()], nullptr};
+        if (word.is_subgrid()) return {nullptr, &grids_[word.index()]};
+        return {&lists_[word.index()], nullptr};
     }
+
+private:
+    const CellWord* HWY_RESTRICT cells_;
+    const VoxelList* HWY_RESTRICT lists_;
+    const Grid* HWY_RESTRICT grids_;
 };
 
 void closest_float(const SearchTarget<float>& target, RayTile<float>& tile)
 {
-    search_tile<Query::closest>(target, EagerResolver{*target.structure}, tile);
+    search_tile<Query::closest>(target, EagerResolver(*target.structure), tile);
 }
 void closest_double(const SearchTarget<double>& target, RayTile<double>& tile)
 {
-    search_tile<Query::closest>(target, EagerResolver{*target.structure}, tile);
+    search_tile<Query::closest>(target, EagerResolver(*target.structure), tile);
 }
 void any_float(const SearchTarget<float>& target, RayTile<float>& tile)
 {
-    search_tile<Query::any>(target, EagerResolver{*target.structure}, tile);
+    search_tile<Query::any>(target, EagerResolver(*target.structure), tile);
 }
 void any_double(const SearchTarget<double>& target, RayTile<double>& tile)
 {
-    search_tile<Query::any>(target, EagerResolver{*target.structure}, tile);
+    search_tile<Query::any>(target, EagerResolver(*target.structure), tile);
 }
 
 }  // namespace HWY_NAMESPACE

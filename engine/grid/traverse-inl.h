@@ -68,18 +68,20 @@ HWY_INLINE bool traverse(const Grid& grid, const WalkRay& ray, float t_begin, fl
     auto next = hn::IfThenElse(axes, crossing(plane), far_away);
     plane = hn::Add(plane, forward);
     auto after = crossing(plane);
+    // Crossings are the same function of the index on both sides, so the step that would leave is met exactly.
+    float t_last = std::min(t_leave, search.t_stop());
     for (float t = t_enter;;) {
         const auto nearest = hn::MinOfLanes(d, next);
         const float t_next = hn::GetLane(nearest);
         const CellWord word = resolve.word(index);
         search.count_cell();
-        if (!word.is_empty()) {
+        if (HWY_UNLIKELY(!word.is_empty())) {
             const Voxel voxel = resolve.voxel(word, index);
             if (voxel.subgrid ? search.enter(*voxel.subgrid, ray, t, t_next, resolve) : search.list(*voxel.list, t))
                 return true;
+            t_last = std::min(t_leave, search.t_stop());
         }
-        // Crossings are the same function of the index on both sides, so the step that would leave is met exactly.
-        if (t_next >= t_leave || t_next > search.t_stop()) return false;
+        if (t_next >= t_last) return false;
         const auto crossed = hn::Le(next, nearest);
         index += moves[bits_of(d, crossed) & 7];
         next = hn::IfThenElse(crossed, after, next);

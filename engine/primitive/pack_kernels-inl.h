@@ -30,6 +30,17 @@ HWY_INLINE std::uint32_t bits_of(D d, Mask mask)
     return bits & ((2u << (hn::Lanes(d) - 1)) - 1);
 }
 
+/// A ray as boxes and grids see it. It starts where the ray enters the structure, at `shift` along the ray, so that its
+/// numbers are no larger than the structure's; its own t, walk t, counts from there.
+struct WalkRay {
+    alignas(16) float origin[4];  ///< x, y, z, unused
+    alignas(16) float direction[4];
+    alignas(16) float inverse[4];  ///< 1 / direction, limited so that no product overflows
+    double shift = 0.0;
+    float t_pad = 0.0f;        ///< walk t in which the ray passes the structure's pad
+    glm::dvec3 exact_inverse;  ///< 1 / direction; very large where that is 0
+};
+
 /// A ray as the triangle filter sees it: sheared so that it points along its major axis, where a triangle becomes flat.
 /// source  S. Woop, C. Benthin, I. Wald, "Watertight Ray/Triangle Intersection", JCGT 2(1), 2013 (the shear; here it
 /// only
@@ -39,19 +50,44 @@ struct FilterRay {
     float slope_x, slope_y;  ///< of the ray: dx / dz, dy / dz
     float start_x, start_y;  ///< where it meets z = 0
     float error_per_edge, error;
+    float forward;  ///< 1 or -1: the direction's sign along z
+    float largest;  ///< the structure's largest coordinate
+    // Depth is forward * z. Hits are of interest from near_end to far_end, give or take what a margin says per error of
+    // the sides.
+    float near_end = 0.0f, near_margin = 0.0f, far_end = 0.0f, far_margin = 0.0f;
+
+    float base = 0.0f, speed = 0.0f;  ///< depth at walk t is base + speed * t
+
+    /// Where the walk begins; nothing before it is of interest.
+    void set_near_end(const WalkRay& walk, float pad)
+    {
+        base = forward * walk.origin[z];
+        speed = std::abs(walk.direction[z]);
+        near_end = base - 2.0f * pad;
+        near_margin = 6.0f * (largest + std::abs(near_end));
+    }
+    /// Nothing beyond this walk t is of interest.
+    void set_far_end(float walk_t, float pad)
+    {
+        far_end = std::min(base + speed * walk_t + pad, 1e30f);  // finite, so that products with zero are numbers
+        far_margin = 6.0f * (largest + std::abs(far_end));
+    }
 };
 
+/// inverse  1 / direction, where it is not 0
 /// largest  the structure's largest coordinate
 /// loose    admit also what Precision::fast may take for a hit
 template <typename Real>
-HWY_INLINE FilterRay make_filter_ray(const SearchRay<Real>& ray, float largest, bool loose)
+HWY_INLINE FilterRay make_filter_ray(const SearchRay<Real>& ray, const glm::dvec3& inverse, float largest, bool loose)
 {
     const glm::dvec3 o(ray.origin), d(ray.direction), along = glm::abs(d);
     FilterRay f;
     f.z = along.x > along.y ? (along.x > along.z ? 0 : 2) : (along.y > along.z ? 1 : 2);
     f.x = f.z == 2 ? 0 : f.z + 1;
     f.y = f.x == 2 ? 0 : f.x + 1;
-    const double inverse = 1.0 / d[f.z], slope_x = d[f.x] * inverse, slope_y = d[f.y] * inverse;
+    f.forward = d[f.z] > 0.0 ? 1.0f : -1.0f;
+    f.largest = largest;
+    const double slope_x = d[f.x] * inverse[f.z], slope_y = d[f.y] * inverse[f.z];
     f.slope_x = static_cast<float>(slope_x);
     f.slope_y = static_cast<float>(slope_y);
     f.start_x = static_cast<float>(o[f.x] - slope_x * o[f.z]);
@@ -77,6 +113,9 @@ HWY_INLINE std::uint32_t candidates(const TrianglePack& pack, const FilterRay& r
     const auto slope_x = hn::Set(d, ray.slope_x), slope_y = hn::Set(d, ray.slope_y);
     const auto start_x = hn::Set(d, ray.start_x), start_y = hn::Set(d, ray.start_y);
     const auto per_edge = hn::Set(d, ray.error_per_edge), least_error = hn::Set(d, ray.error);
+    const auto forward = hn::Set(d, ray.forward), near_end = hn::Set(d, ray.near_end),
+               far_end = hn::Set(d, ray.far_end), near_margin = hn::Set(d, ray.near_margin),
+               far_margin = hn::Set(d, ray.far_margin);
     std::uint32_t found = 0;
     for (int lane = 0; lane < pack_size; lane += static_cast<int>(hn::Lanes(d))) {
         const auto along = [&](int corner, int axis) HWY_ATTR { return hn::Load(d, pack.v[corner][axis] + lane); };
@@ -93,20 +132,18 @@ HWY_INLINE std::uint32_t candidates(const TrianglePack& pack, const FilterRay& r
         const auto least = hn::Min(hn::Min(u, v), w), most = hn::Max(hn::Max(u, v), w);
         const auto error = hn::MulAdd(per_edge, hn::Load(d, pack.edge + lane), least_error);
         const auto maybe = hn::Or(hn::Ge(least, hn::Neg(error)), hn::Le(most, error));
-        found |= bits_of(d, maybe) << lane;
+        if (hn::AllFalse(d, maybe)) continue;
+        // The depth of the hit, times the sum of the sides, against both ends: most of what the line meets lies behind
+        // the ray's origin or beyond its end.
+        const auto sum = hn::Add(hn::Add(u, v), w), size = hn::Abs(sum);
+        const auto turn = hn::Xor(hn::And(sum, hn::SignBit(d)), hn::And(forward, hn::SignBit(d)));
+        const auto depth = hn::Xor(hn::MulAdd(u, z0, hn::MulAdd(v, z1, hn::Mul(w, z2))), turn);
+        const auto too_far = hn::Gt(depth, hn::MulAdd(far_end, size, hn::Mul(far_margin, error)));
+        const auto too_near = hn::Lt(depth, hn::NegMulAdd(near_margin, error, hn::Mul(near_end, size)));
+        found |= bits_of(d, hn::AndNot(hn::Or(too_far, too_near), maybe)) << lane;
     }
     return found;
 }
-
-/// A ray as boxes and grids see it. It starts where the ray enters the structure, at `shift` along the ray, so that its
-/// numbers are no larger than the structure's; its own t, walk t, counts from there.
-struct WalkRay {
-    alignas(16) float origin[4];  ///< x, y, z, unused
-    alignas(16) float direction[4];
-    alignas(16) float inverse[4];  ///< 1 / direction, limited so that no product overflows
-    double shift = 0.0;
-    float t_pad = 0.0f;  ///< walk t in which the ray passes the structure's pad
-};
 
 /// Which boxes of a block the ray may meet between two walk ts; entries gets where it enters each.
 HWY_INLINE std::uint32_t boxes_met(const PackBoxes& boxes, const WalkRay& ray, float t_begin, float t_end,

@@ -5,6 +5,9 @@
 #include <cmath>
 #include <limits>
 
+/// Inlined into kernels of every instruction set, where it is compiled for that set (but never contracted).
+#define FIRSTRAY_INLINE [[gnu::always_inline]] inline
+
 namespace firstray {
 
 // The one test of a ray and a triangle. Whatever finds hits, a lane of a wide kernel or the loop over everything,
@@ -29,11 +32,17 @@ struct RootTriangle {
 
 /// The largest component of the three edges, in magnitude.
 template <typename Real>
-Real longest_edge(const glm::vec<3, Real, glm::defaultp>& v0, const glm::vec<3, Real, glm::defaultp>& v1,
-                  const glm::vec<3, Real, glm::defaultp>& v2)
+FIRSTRAY_INLINE Real longest_edge(const glm::vec<3, Real, glm::defaultp>& v0,
+                                  const glm::vec<3, Real, glm::defaultp>& v1,
+                                  const glm::vec<3, Real, glm::defaultp>& v2)
 {
-    const auto longest = glm::max(glm::max(glm::abs(v1 - v0), glm::abs(v2 - v1)), glm::abs(v0 - v2));
-    return std::max(std::max(longest.x, longest.y), longest.z);
+    Real longest = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+        const Real a = std::abs(v1[axis] - v0[axis]), b = std::abs(v2[axis] - v1[axis]),
+                   c = std::abs(v0[axis] - v2[axis]);
+        longest = std::max(longest, std::max(std::max(a, b), c));
+    }
+    return longest;
 }
 
 /// Bound on the error of a side, as a multiple of edge * distance * direction (each a largest component): 92 roundings
@@ -45,8 +54,8 @@ inline constexpr Real side_error = Real(100) * std::numeric_limits<Real>::epsilo
 template <typename Real>
 inline constexpr Real least_bound = std::numeric_limits<Real>::min() * Real(1 << 20);
 
-/// t comes from float only where |Ng . d| is at least this much of edge^2 * direction: elsewhere, for slivers and
-/// grazing rays, the quotient loses too much and is computed in double.
+/// t comes from float only where |Ng . d| is at least this much of span * direction, with span = |e1| |e2| of the edges
+/// that make Ng: elsewhere, for needles and grazing rays, the quotient loses too much and is computed in double.
 inline constexpr float least_slope = 1.0f / 64;
 /// ... and only where the hit is at least this part of the triangle's distance away: the numerator's error scales with
 /// the distance of the vertices, not of the hit.
@@ -56,32 +65,70 @@ inline constexpr float least_distance = 1.0f / 8;
 /// then a ray that it takes for a hit misses the triangle by a hundredth of its size at most.
 inline constexpr float farthest_fast = 1024.0f;
 
+/// span * distance must stay below this for float's t, or products overflow.
+inline constexpr float most_volume = 1e36f;
+
+/// Bound on float's error of t where it is sloped enough: this part of t plus distance / direction (64 * 50 half ulps).
+inline constexpr float quotient_error = 1.0f / 4096;
+
 /// How far float's t can be off under these two rules, relative to t: 64 * 50 * 9 half ulps of worst case (in practice
 /// a hundredth of it). Searches look this much beyond the nearest hit, so that they test whatever could beat it.
 inline constexpr float t_slack = 1.0f / 512;
 
-/// The sides of a ray and a triangle's edges, and the quotient that gives t.
 template <typename Real>
-struct TriangleSides {
-    Real u, v, w;  ///< side of the edge opposite to corner 0, 1, 2
-    Real slope;    ///< Ng . d
-    Real height;   ///< Ng . a_0
+FIRSTRAY_INLINE glm::vec<3, Real, glm::defaultp> cross_as_written(const glm::vec<3, Real, glm::defaultp>& a,
+                                                                  const glm::vec<3, Real, glm::defaultp>& b)
+{
+    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+template <typename Real>
+FIRSTRAY_INLINE Real dot_as_written(const glm::vec<3, Real, glm::defaultp>& a,
+                                    const glm::vec<3, Real, glm::defaultp>& b)
+{
+    return (a.x * b.x + a.y * b.y) + a.z * b.z;
+}
+
+template <typename Real>
+FIRSTRAY_INLINE Real largest_component(const glm::vec<3, Real, glm::defaultp>& v)
+{
+    return std::max(std::max(std::abs(v.x), std::abs(v.y)), std::abs(v.z));
+}
+
+/// The quotient that gives t: height / slope = Ng . a_0 / Ng . d, with Ng from the edges at corner 0.
+template <typename Real>
+struct TrianglePlane {
+    Real slope, height;
+    Real span;  ///< product of the largest components of those edges
 };
 
 template <typename Real>
-TriangleSides<Real> triangle_sides(const glm::vec<3, Real, glm::defaultp> (&v)[3],
-                                   const glm::vec<3, Real, glm::defaultp>& origin,
-                                   const glm::vec<3, Real, glm::defaultp>& direction)
+FIRSTRAY_INLINE TrianglePlane<Real> triangle_plane(const glm::vec<3, Real, glm::defaultp> (&v)[3],
+                                                   const glm::vec<3, Real, glm::defaultp>& origin,
+                                                   const glm::vec<3, Real, glm::defaultp>& direction)
 {
-    const auto cross = [](const auto& a, const auto& b) {
-        return glm::vec<3, Real, glm::defaultp>(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
-    };
-    const auto dot = [](const auto& a, const auto& b) { return (a.x * b.x + a.y * b.y) + a.z * b.z; };
+    const auto e1 = v[0] - v[2], e2 = v[1] - v[0], normal = cross_as_written<Real>(e1, e2);
+    return {dot_as_written<Real>(normal, direction), dot_as_written<Real>(normal, v[0] - origin),
+            largest_component<Real>(e1) * largest_component<Real>(e2)};
+}
+
+/// The sides on which a ray passes the edges opposite to corners 0, 1, 2.
+template <typename Real>
+struct TriangleSides {
+    Real u, v, w;
+    Real least() const { return std::min(std::min(u, v), w); }
+    Real most() const { return std::max(std::max(u, v), w); }
+};
+
+template <typename Real>
+FIRSTRAY_INLINE TriangleSides<Real> triangle_sides(const glm::vec<3, Real, glm::defaultp> (&v)[3],
+                                                   const glm::vec<3, Real, glm::defaultp>& origin,
+                                                   const glm::vec<3, Real, glm::defaultp>& direction)
+{
     const auto a0 = v[0] - origin, a1 = v[1] - origin, a2 = v[2] - origin;
-    const auto e0 = v[2] - v[1], e1 = v[0] - v[2], e2 = v[1] - v[0];
-    const auto normal = cross(e1, e2);
-    return {dot(cross(e0, a1 + a2), direction), dot(cross(e1, a2 + a0), direction), dot(cross(e2, a0 + a1), direction),
-            dot(normal, direction), dot(normal, a0)};
+    return {dot_as_written<Real>(cross_as_written<Real>(v[2] - v[1], a1 + a2), direction),
+            dot_as_written<Real>(cross_as_written<Real>(v[0] - v[2], a2 + a0), direction),
+            dot_as_written<Real>(cross_as_written<Real>(v[1] - v[0], a0 + a1), direction)};
 }
 
 /// What a hit is; u and v are the weights of corners 1 and 2.
@@ -91,44 +138,63 @@ struct TriangleHit {
     Real t = 0, u = 0, v = 0;
 };
 
-/// The test in double with exact signs: the answer for Precision::robust where float cannot tell, and for double_.
-/// t lies between the vertices' own distances along the ray, however the ray grazes the triangle.
+/// Where hits count: t_min < t <= t_last. (Searches decide themselves what a hit at t_last is worth.)
+template <typename Real>
+struct HitRange {
+    Real t_min = -std::numeric_limits<Real>::infinity(), t_last = std::numeric_limits<Real>::infinity();
+    bool contains(Real t) const { return t > t_min && t <= t_last; }
+};
+
+/// The test in double with exact signs: for Precision::double_, and for the signs that float cannot tell.
 TriangleHit<double> intersect(const RootTriangle<double>& triangle, const glm::dvec3& origin,
-                              const glm::dvec3& direction);
+                              const glm::dvec3& direction, const HitRange<double>& range = {});
 
-/// The same for a triangle and a ray in float. inside_known: the sides are already decided, only t and weights are
-/// wanted.
-TriangleHit<float> intersect_in_double(const RootTriangle<float>& triangle, const glm::vec3& origin,
-                                       const glm::vec3& direction, bool inside_known);
+/// t of the plane's hit in double, rounded: for slivers and grazing rays. It lies between the corners' own distances
+/// along the ray, however the ray grazes the triangle.
+float plane_t_in_double(const RootTriangle<float>& triangle, const glm::vec3& origin, const glm::vec3& direction);
 
-/// The test in float, for Precision::fast and robust. Any t; callers compare it with their interval.
-inline TriangleHit<float> intersect(const RootTriangle<float>& triangle, const glm::vec3& origin,
-                                    const glm::vec3& direction, bool exact_signs)
+/// Whether the ray passes inside, decided in double or exactly; the weights of corners 1 and 2 if so.
+bool passes_inside_exactly(const RootTriangle<float>& triangle, const glm::vec3& origin, const glm::vec3& direction,
+                           float& u, float& v);
+
+/// The test in float, for Precision::fast and robust.
+FIRSTRAY_INLINE TriangleHit<float> intersect(const RootTriangle<float>& triangle, const glm::vec3& origin,
+                                             const glm::vec3& direction, bool exact_signs,
+                                             const HitRange<float>& range = {})
 {
+    const float distance = largest_component<float>(triangle.v[0] - origin) + triangle.edge;
+    const float length = largest_component<float>(direction);
+    const TrianglePlane<float> plane = triangle_plane(triangle.v, origin, direction);
+    const float volume = plane.span * distance;
+    const bool is_sloped = std::abs(plane.slope) > least_slope * (plane.span * length) && volume > least_bound<float> &&
+                           volume < most_volume;
+    float t = plane.height / plane.slope;
+    if (!is_sloped || !(std::abs(t) * length >= least_distance * distance)) {
+        // Near a large triangle float cannot place the hit well, but mostly well enough to see that it does not count.
+        const float error = quotient_error * (std::abs(t) + distance / length);
+        if (is_sloped && (t + error < range.t_min || t - error > range.t_last)) return {};
+        t = plane_t_in_double(triangle, origin, direction);
+    }
+    if (!range.contains(t)) return {};
+
     const TriangleSides<float> s = triangle_sides(triangle.v, origin, direction);
-    const glm::vec3 apart = glm::abs(triangle.v[0] - origin), along = glm::abs(direction);
-    const float distance = std::max(std::max(apart.x, apart.y), apart.z) + triangle.edge;
-    const float length = std::max(std::max(along.x, along.y), along.z);
-    const float least = std::min(std::min(s.u, s.v), s.w), most = std::max(std::max(s.u, s.v), s.w);
-    const float area = triangle.edge * triangle.edge, volume = area * distance;
-    const bool is_sloped =
-        std::abs(s.slope) > least_slope * (area * length) && volume > least_bound<float> && volume < 1e36f;
-    if (exact_signs) {
-        const float error = side_error<float> * (triangle.edge * distance * length);
-        const bool is_certain = error >= least_bound<float> && (least > error || most < -error);
-        if (error >= least_bound<float> && least < -error && most > error) return {};
-        if (!is_certain) return intersect_in_double(triangle, origin, direction, false);
-    } else {
+    const float least = s.least(), most = s.most();
+    const float error = side_error<float> * (triangle.edge * distance * length);
+    bool is_certain = error >= least_bound<float> && (least > error || most < -error);
+    if (!exact_signs) {
         if (!(least >= 0.0f || most <= 0.0f)) return {};
         // Rounding alone would let rays meet needles far beyond their ends, and what is tiny from afar almost anywhere.
-        if (!is_sloped || distance > farthest_fast * triangle.edge)
-            return intersect_in_double(triangle, origin, direction, false);
+        is_certain = is_sloped && distance <= farthest_fast * triangle.edge;
+    } else if (error >= least_bound<float> && least < -error && most > error) {
+        return {};
     }
-    const float t = s.height / s.slope;
-    if (!is_sloped || !(std::abs(t) * length >= least_distance * distance))
-        return intersect_in_double(triangle, origin, direction, true);
-    const float scale = 1.0f / ((s.u + s.v) + s.w);
-    return {true, t, s.v * scale, s.w * scale};
+    if (is_certain) {
+        const float scale = 1.0f / ((s.u + s.v) + s.w);
+        return {true, t, s.v * scale, s.w * scale};
+    }
+    TriangleHit<float> hit{false, t};
+    hit.hit = passes_inside_exactly(triangle, origin, direction, hit.u, hit.v);
+    return hit;
 }
 
 }  // namespace firstray

@@ -26,20 +26,17 @@ struct alignas(64) TrianglePack {
         t.edge = edge[lane];
         return t;
     }
-    void set(int lane, const glm::vec3& v0, const glm::vec3& v1, const glm::vec3& v2, std::uint32_t id_and_bit)
+    void set(int lane, const RootTriangle<float>& t, std::uint32_t id_and_bit)
     {
-        for (int axis = 0; axis < 3; ++axis) {
-            v[0][axis][lane] = v0[axis];
-            v[1][axis][lane] = v1[axis];
-            v[2][axis][lane] = v2[axis];
-        }
-        edge[lane] = longest_edge<float>(v0, v1, v2);
+        for (int corner = 0; corner < 3; ++corner)
+            for (int axis = 0; axis < 3; ++axis) v[corner][axis][lane] = t.v[corner][axis];
+        edge[lane] = t.edge;
         id[lane] = id_and_bit;
     }
     void clear(int lane)
     {
         const glm::vec3 nowhere(std::numeric_limits<float>::quiet_NaN());
-        set(lane, nowhere, nowhere, nowhere, no_primitive);
+        set(lane, {{nowhere, nowhere, nowhere}, nowhere.x}, no_primitive);
     }
 };
 

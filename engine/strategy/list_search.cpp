@@ -7,6 +7,7 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "engine/primitive/intersect.h"
 #include "engine/primitive/ray_kernels-inl.h"
 #include "engine/primitive/triangle_pack.h"
 
@@ -56,15 +57,6 @@ struct ListSearch {
 };
 
 template <typename Real>
-TriangleHit<Real> exact_test(const RootTriangle<Real>& triangle, const SearchRay<Real>& ray, Precision precision)
-{
-    if constexpr (std::is_same_v<Real, float>)
-        return intersect(triangle, ray.origin, ray.direction, precision != Precision::fast);
-    else
-        return intersect(triangle, ray.origin, ray.direction);
-}
-
-template <typename Real>
 void test_triangle(const RootTriangle<Real>& triangle, PrimitiveId id, Precision precision, ListSearch<Real>& search)
 {
     for (int first = 0; first < search.lanes.count; first += search.lanes.block) {
@@ -73,7 +65,7 @@ void test_triangle(const RootTriangle<Real>& triangle, PrimitiveId id, Precision
             const int lane = first + __builtin_ctz(maybe);
             if (lane >= search.lanes.count) break;
             const auto i = static_cast<std::size_t>(lane);
-            const TriangleHit<Real> hit = exact_test(triangle, search.rays[i], precision);
+            const TriangleHit<Real> hit = intersect_precisely(triangle, search.rays[i], precision, search.hits[i].t);
             if (hit.hit) search.offer(i, hit.t, hit.u, hit.v, id);
         }
     }

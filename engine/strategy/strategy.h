@@ -4,17 +4,11 @@
 #include <string>
 
 #include "engine/core/executor.h"
+#include "engine/core/precision.h"
 #include "engine/core/ray_tile.h"
 #include "engine/scene/pose.h"
 
 namespace firstray {
-
-/// How the test of a ray and a triangle is computed; t, u and v have the precision of `Real` below.
-enum class Precision {
-    fast,    ///< float; rays can leak through edges and vertices
-    robust,  ///< float, and where float cannot tell, double, and where double cannot tell, exact: watertight
-    double_  ///< double vertices and rays, exact signs
-};
 
 /// What a structure consists of and what it took. Counts are totals after update, lazily built parts included.
 struct StructureReport {
