@@ -1,6 +1,6 @@
 # shellcheck shell=bash
 # Sourced by tests/run and bench/run: finds what building needs, configures, builds. Expects `set -euo pipefail`.
-# After the first run nothing here needs the network or root.
+# Once all packages are installed nothing here needs the network or root.
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd -P)
 build=$root/build
@@ -24,7 +24,7 @@ apt_install() {
 # Installs what is missing where that is possible, else says what to install and ends the script.
 ensure_packages() {
     if ! command -v dpkg-query >/dev/null; then
-        echo "not a Debian system: packages are not checked, CMake will name what it misses" >&2
+        echo "no dpkg-query: packages are not checked, CMake will name what it misses" >&2
         return
     fi
     local missing optional
@@ -34,7 +34,11 @@ ensure_packages() {
         echo "missing packages; as root: apt-get install ${missing[*]}" >&2
         exit 1
     fi
-    if ((EUID != 0 || ${#missing[@]} + ${#optional[@]} == 0)); then return; fi
+    if ((${#missing[@]} + ${#optional[@]} == 0)); then return; fi
+    if ((EUID != 0)); then
+        echo "going on without ${optional[*]}; to have it, as root: apt-get install ${optional[*]}" >&2
+        return
+    fi
     echo "installing ${missing[*]} ${optional[*]}" >&2
     apt-get update -qq >/dev/null || echo "apt-get update failed, trying with what is known" >&2
     if ((${#missing[@]} > 0)) && ! apt_install "${missing[@]}"; then
