@@ -53,21 +53,25 @@ struct RayTile {
 
     RayCost* cost = nullptr;  ///< `count` entries that the search adds to, or null: counting then costs nothing
 
-    Vec origin_of(int i) const { return common_apex ? apex : Vec(origin[0][i], origin[1][i], origin[2][i]); }
-    Vec direction_of(int i) const { return {direction[0][i], direction[1][i], direction[2][i]}; }
-
-    void set_origin(int i, const Vec& o)
-    {
-        for (int axis = 0; axis < 3; ++axis) origin[axis][i] = o[axis];
-    }
-    void set_direction(int i, const Vec& d)
-    {
-        for (int axis = 0; axis < 3; ++axis) direction[axis][i] = d[axis];
-    }
+    Vec origin_of(int i) const { return common_apex ? apex : get(origin, i); }
+    Vec direction_of(int i) const { return get(direction, i); }
+    void set_origin(int i, const Vec& o) { set(origin, i, o); }
+    void set_direction(int i, const Vec& d) { set(direction, i, d); }
     void set_interval(int i, Real begin, Real end = std::numeric_limits<Real>::infinity())
     {
-        t_min[i] = begin;
-        t_max[i] = end;
+        t_min[static_cast<std::size_t>(i)] = begin;
+        t_max[static_cast<std::size_t>(i)] = end;
+    }
+
+private:
+    static Vec get(const Lane (&lanes)[3], int i)
+    {
+        const auto k = static_cast<std::size_t>(i);
+        return {lanes[0][k], lanes[1][k], lanes[2][k]};
+    }
+    static void set(Lane (&lanes)[3], int i, const Vec& v)
+    {
+        for (int axis = 0; axis < 3; ++axis) lanes[axis][static_cast<std::size_t>(i)] = v[axis];
     }
 };
 

@@ -77,7 +77,7 @@ TEST_CASE("no ray passes between triangles around a vertex, and few hit more tha
     CHECK(misses == 0);
 }
 
-TEST_CASE("t agrees with double to a millionth, for grazing rays and slivers too")
+TEST_CASE("t agrees with double, for grazing rays and slivers too")
 {
     Random random(6);
     double worst = 0.0;

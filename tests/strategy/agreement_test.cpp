@@ -82,7 +82,7 @@ TEST_CASE("every strategy finds the hits that testing all primitives finds, bit 
         check_all_precisions(scene, awkward_rays(seed, scene, 1024), hits);
     }
     CHECK(hits > 30000);
-    MESSAGE("0 differences expected among " << hits << " hits");
+    MESSAGE("hits compared: " << hits);
 }
 
 TEST_CASE("every shape of grid finds the same hits")

@@ -125,37 +125,44 @@ std::unique_ptr<RayTile<Real>> make_tile(const std::vector<TestRay>& rays, std::
     return tile;
 }
 
+/// A static mesh as a scene: one part, one material.
+inline Scene mesh_scene(std::vector<glm::dvec3> positions, const std::vector<glm::uvec3>& triangles)
+{
+    Scene scene = SmallScene().scene;
+    scene.materials.emplace_back();
+    scene.positions = std::move(positions);
+    for (const glm::uvec3& triangle : triangles) scene.triangles.push_back({.vertex = triangle});
+    const auto count = static_cast<std::uint32_t>(triangles.size());
+    scene.parts.push_back({.count = count});
+    scene.groups[0].triangles = count;
+    scene.groups[0].vertices = static_cast<std::uint32_t>(scene.positions.size());
+    scene.part_of_primitive.assign(count, 0);
+    return scene;
+}
+
 /// A closed sphere of triangles around a point, `rings` from pole to pole.
 inline Scene sphere_mesh(int rings, double radius, const glm::dvec3& centre)
 {
-    SmallScene small;
-    small.triangle({}, centre, centre, centre);  // brings the material in; without area, never hit
-    Scene scene = small.build();
-    scene.positions.clear();
-    scene.triangles.clear();
     const int around = 2 * rings;
     const auto vertex = [&](int ring, int turn) {
         return static_cast<std::uint32_t>(ring == 0 ? 0 : ring == rings ? 1 : 2 + (ring - 1) * around + turn % around);
     };
-    scene.positions.push_back(centre + glm::dvec3(0, radius, 0));
-    scene.positions.push_back(centre - glm::dvec3(0, radius, 0));
+    std::vector<glm::dvec3> positions = {centre + glm::dvec3(0, radius, 0), centre - glm::dvec3(0, radius, 0)};
     for (int ring = 1; ring < rings; ++ring)
         for (int turn = 0; turn < around; ++turn) {
             const double theta = M_PI * ring / rings, phi = M_PI * turn / rings;
-            scene.positions.push_back(centre + radius * glm::dvec3(std::sin(theta) * std::cos(phi), std::cos(theta),
-                                                                   std::sin(theta) * std::sin(phi)));
+            positions.push_back(centre + radius * glm::dvec3(std::sin(theta) * std::cos(phi), std::cos(theta),
+                                                             std::sin(theta) * std::sin(phi)));
         }
+    std::vector<glm::uvec3> triangles;
     for (int ring = 0; ring < rings; ++ring)
         for (int turn = 0; turn < around; ++turn) {
             const std::uint32_t a = vertex(ring, turn), b = vertex(ring, turn + 1), c = vertex(ring + 1, turn),
                                 e = vertex(ring + 1, turn + 1);
-            if (ring > 0) scene.triangles.push_back({.vertex = {a, b, e}});
-            if (ring < rings - 1) scene.triangles.push_back({.vertex = {a, e, c}});
+            if (ring > 0) triangles.emplace_back(a, b, e);
+            if (ring < rings - 1) triangles.emplace_back(a, e, c);
         }
-    scene.parts[0].count = scene.groups[0].triangles = static_cast<std::uint32_t>(scene.triangles.size());
-    scene.groups[0].vertices = static_cast<std::uint32_t>(scene.positions.size());
-    scene.part_of_primitive.assign(scene.triangles.size(), 0);
-    return scene;
+    return mesh_scene(std::move(positions), triangles);
 }
 
 }  // namespace firstray::test
