@@ -12,8 +12,11 @@
 namespace firstray {
 namespace {
 
-/// References per primitive that a grid may make; resolutions that would make more are lowered first.
-constexpr std::uint64_t most_references = 6;
+/// References per primitive that all levels of grids together may make; resolutions that would make more are lowered.
+constexpr double most_references = 6.0;
+
+/// A few large primitives may be listed more often than that.
+constexpr std::uint64_t free_references = 64;
 
 /// A grid before its lists are packed, with the grids inside its crowded cells.
 struct GridNode {
@@ -86,8 +89,15 @@ GridEntries make_entries(const RootGeometry<Real>& geometry, const Executor* exe
     return entries;
 }
 
-/// A grid over a box for so many primitives, coarser where the references would get out of hand.
-Grid choose_grid(const Aabb& box, const GridEntries& entries, std::span<const std::uint32_t> chosen, float density)
+/// How many references to so many entries are within an allowance, in references per entry.
+std::uint64_t allowed_references(double allowance, std::size_t entries)
+{
+    return static_cast<std::uint64_t>(allowance * static_cast<double>(entries)) + free_references;
+}
+
+/// A grid over a box for so many primitives, coarser where it would make too many references.
+Grid choose_grid(const Aabb& box, const GridEntries& entries, std::span<const std::uint32_t> chosen, float density,
+                 double allowance)
 {
     Grid grid;
     grid.lo = box.lo - entries.pad;
@@ -95,46 +105,50 @@ Grid choose_grid(const Aabb& box, const GridEntries& entries, std::span<const st
     for (;; density *= 0.25f) {
         grid.dims = choose_grid_dims(size, chosen.size(), density);
         grid.cell = size / glm::vec3(grid.dims);
-        if (grid.cells() == 1 || estimate_references(grid, entries, chosen) <= most_references * chosen.size() + 64)
+        if (grid.cells() == 1 ||
+            estimate_references(grid, entries, chosen) <= allowed_references(allowance, chosen.size()))
             return grid;
     }
 }
 
 std::unique_ptr<GridNode> build_node(const Aabb& box, const GridEntries& entries, std::span<const std::uint32_t> chosen,
-                                     float density, const GridOptions& options, int levels_left,
+                                     float density, double allowance, const GridOptions& options, int levels_left,
                                      const Executor* executor);
 
 /// The grid inside a crowded cell, over what lies in the cell, or null where it would make no progress.
 std::unique_ptr<GridNode> build_child(const GridNode& parent, std::uint32_t cell, const GridEntries& entries,
-                                      const GridOptions& options, int levels_left)
+                                      const GridOptions& options, int levels_left, double allowance)
 {
     const std::span<const std::uint32_t> listed = parent.lists.of(cell);
     Aabb content;
     for (const std::uint32_t entry : listed) content.grow(entries.boxes[entry]);
     const Aabb box = clipped(content, cell_box(parent.grid, cell));
     std::unique_ptr<GridNode> node =
-        build_node(box, entries, listed, options.subdensity, options, levels_left, nullptr);
+        build_node(box, entries, listed, options.subdensity, allowance, options, levels_left, nullptr);
     std::size_t fullest = 0;
     for (std::uint32_t c = 0; c < node->grid.cells(); ++c) fullest = std::max(fullest, node->lists.of(c).size());
     const bool progress =
-        fullest * 10 <= listed.size() * 9 && node->lists.entries.size() <= most_references * listed.size();
+        fullest * 10 <= listed.size() * 9 && node->lists.entries.size() <= allowed_references(allowance, listed.size());
     return progress ? std::move(node) : nullptr;
 }
 
 std::unique_ptr<GridNode> build_node(const Aabb& box, const GridEntries& entries, std::span<const std::uint32_t> chosen,
-                                     float density, const GridOptions& options, int levels_left,
+                                     float density, double allowance, const GridOptions& options, int levels_left,
                                      const Executor* executor)
 {
     auto node = std::make_unique<GridNode>();
-    node->grid = choose_grid(box, entries, chosen, density);
+    node->grid = choose_grid(box, entries, chosen, density, allowance);
     node->lists = bin(node->grid, entries, chosen, executor);
     if (levels_left <= 1) return node;
+    const double left = allowance * static_cast<double>(chosen.size()) /
+                        static_cast<double>(std::max<std::size_t>(node->lists.entries.size(), 1));
     for (std::uint32_t cell = 0; cell < node->grid.cells(); ++cell)
         if (node->lists.of(cell).size() > static_cast<std::size_t>(options.max_list))
             node->children.push_back({cell, nullptr});
     for_pieces(executor, node->children.size(), 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i)
-            node->children[i].node = build_child(*node, node->children[i].cell, entries, options, levels_left - 1);
+            node->children[i].node =
+                build_child(*node, node->children[i].cell, entries, options, levels_left - 1, left);
     });
     return node;
 }
@@ -207,7 +221,7 @@ GridStructure build_grid(const RootGeometry<Real>& geometry, const GridOptions& 
     std::erase_if(chosen, [&](std::uint32_t e) { return std::binary_search(large.begin(), large.end(), e); });
 
     const std::unique_ptr<GridNode> top =
-        build_node(bounds, entries, chosen, options.density, options, options.depth, executor);
+        build_node(bounds, entries, chosen, options.density, most_references, options, options.depth, executor);
     std::vector<ListToFill> lists;
     PackCounts counts;
     structure.large = reserve_list(large, entries, counts);
