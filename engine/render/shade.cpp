@@ -44,9 +44,15 @@ glm::vec3 light_term(const Surface& surface, const glm::dvec3& to_light, const g
     return colour * sum;
 }
 
+/// Sine of the least angle at which a mirrored ray leaves its surface.
+static constexpr double least_rise = 0.02;
+
 glm::dvec3 reflected_direction(const Surface& surface)
 {
-    return mirrored(surface.direction, surface.normal);
+    const glm::dvec3 mirror = mirrored(surface.direction, surface.normal);
+    const double rise = glm::dot(mirror, surface.geometric);
+    if (rise >= least_rise) return mirror;
+    return glm::normalize(mirror + (least_rise - rise) * surface.geometric);
 }
 
 glm::dvec3 transmitted_direction(const Surface& surface)

@@ -27,7 +27,8 @@ bool responds_to(const Surface& surface, const glm::dvec3& to_light);
 /// to_light  as above, not zero
 glm::vec3 light_term(const Surface& surface, const glm::dvec3& to_light, const glm::vec3& colour);
 
-/// Unit direction of the mirrored ray.
+/// Unit direction of the mirrored ray. Where a shading normal leans so far from the geometric one that the mirror image
+/// lies behind the surface, it is lifted just above it: a ray into the wall would see what is behind the scene.
 glm::dvec3 reflected_direction(const Surface& surface);
 
 /// Unit direction of the ray that goes on behind the surface: straight where the index of refraction is 0 or 1, bent by

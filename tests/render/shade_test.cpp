@@ -85,6 +85,21 @@ TEST_CASE("a mirrored ray leaves at the angle it came in")
     CHECK(glm::distance(d, {0.0, 0.5, std::sqrt(0.75)}) < 1e-15);
 }
 
+TEST_CASE("a mirrored ray leaves on the side it came from, however the shading normal leans")
+{
+    const Material m;
+    Surface surface = met_at(30.0, m);
+    for (int i = 0; i <= 90; ++i) {
+        const double lean = i * M_PI / 180.0;
+        const glm::dvec3 along =
+            glm::normalize(surface.direction - glm::dot(surface.direction, surface.geometric) * surface.geometric);
+        surface.normal = std::cos(lean) * surface.geometric - std::sin(lean) * along;
+        const glm::dvec3 d = reflected_direction(surface);
+        CHECK(glm::dot(d, surface.geometric) > 0.0);
+        CHECK(glm::length(d) == doctest::Approx(1.0));
+    }
+}
+
 TEST_CASE("transmitted rays bend by Snell's law into the material and out of it")
 {
     const Material glass{.transmittance = 1.0f, .ior = 1.5f};
