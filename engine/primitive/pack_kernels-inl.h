@@ -42,9 +42,8 @@ struct WalkRay {
 };
 
 /// A ray as the triangle filter sees it: sheared so that it points along its major axis, where a triangle becomes flat.
-/// source  S. Woop, C. Benthin, I. Wald, "Watertight Ray/Triangle Intersection", JCGT 2(1), 2013 (the shear; here it
-/// only
-///         chooses what the exact test looks at, so its errors are bounded instead of avoided)
+/// It only chooses what the exact test looks at, so its errors are bounded instead of avoided.
+/// source  the shear: S. Woop, C. Benthin, I. Wald, "Watertight Ray/Triangle Intersection", JCGT 2(1), 2013
 struct FilterRay {
     int x, y, z;             ///< axes: z is the major one
     float slope_x, slope_y;  ///< of the ray: dx / dz, dy / dz
@@ -55,7 +54,6 @@ struct FilterRay {
     // Depth is forward * z. Hits are of interest from near_end to far_end, give or take what a margin says per error of
     // the sides.
     float near_end = 0.0f, near_margin = 0.0f, far_end = 0.0f, far_margin = 0.0f;
-
     float base = 0.0f, speed = 0.0f;  ///< depth at walk t is base + speed * t
 
     /// Where the walk begins; nothing before it is of interest.

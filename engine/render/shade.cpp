@@ -20,6 +20,9 @@ float highlight(const Surface& s, const glm::dvec3& l, double n_dot_l)
     return std::pow(std::min(static_cast<float>(r_dot_v), 1.0f), s.material->shine);
 }
 
+/// Sine of the least angle at which a mirrored ray leaves its surface.
+constexpr double least_rise = 0.02;
+
 }  // namespace
 
 glm::vec3 ambient_term(const Surface& surface, const glm::vec3& ambient)
@@ -43,9 +46,6 @@ glm::vec3 light_term(const Surface& surface, const glm::dvec3& to_light, const g
     if (m.specular != glm::vec3(0.0f)) sum += m.specular * highlight(surface, l, n_dot_l);
     return colour * sum;
 }
-
-/// Sine of the least angle at which a mirrored ray leaves its surface.
-static constexpr double least_rise = 0.02;
 
 glm::dvec3 reflected_direction(const Surface& surface)
 {
