@@ -179,11 +179,15 @@ std::uint32_t Lexer::index_below(std::size_t size, const char* what)
 
 FilePlace Lexer::place(std::size_t position) const
 {
-    const std::string_view before = std::string_view(file_->text).substr(0, position);
-    const std::size_t newline = before.rfind('\n');
+    const std::string_view text = file_->text;
+    const auto lines_in = [&](std::size_t begin, std::size_t end) {
+        return static_cast<int>(std::count(text.data() + begin, text.data() + end, '\n'));
+    };
+    lines_ += position >= counted_ ? lines_in(counted_, position) : -lines_in(position, counted_);
+    counted_ = position;
+    const std::size_t newline = text.substr(0, position).rfind('\n');
     const std::size_t line_begin = newline == std::string_view::npos ? 0 : newline + 1;
-    return {file_->shown, 1 + static_cast<int>(std::count(before.begin(), before.end(), '\n')),
-            1 + static_cast<int>(position - line_begin)};
+    return {file_->shown, 1 + lines_, 1 + static_cast<int>(position - line_begin)};
 }
 
 Mention Lexer::mention() const

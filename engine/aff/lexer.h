@@ -74,6 +74,9 @@ private:
     std::size_t position_ = 0;
     std::size_t token_ = 0;      // where the last token begins
     std::size_t statement_ = 0;  // where the last statement begins
+    // Every include is mentioned with its line: lines are counted on from the place asked for before.
+    mutable std::size_t counted_ = 0;
+    mutable int lines_ = 0;  // that end before counted_
 };
 
 }  // namespace firstray
