@@ -7,6 +7,7 @@
 #include "engine/core/precision.h"
 #include "engine/core/ray_tile.h"
 #include "engine/scene/pose.h"
+#include "engine/strategy/outline.h"
 
 namespace firstray {
 
@@ -42,6 +43,8 @@ public:
     /// Finds out whether each ray meets anything: primitive is set to one that it meets, or no_primitive.
     virtual void occluded(RayTile<Real>& rays) const = 0;
     virtual StructureReport report() const = 0;
+    /// The boxes and grids as they stand since the last update, outer before inner; none where there is nothing to show.
+    virtual std::vector<StructureBox> outline() const { return {}; }
 };
 
 /// What the user chooses about structures; each field has a flag of the command.
