@@ -18,6 +18,12 @@ enum class RayMask : std::uint8_t {
     transmitting  ///< transmittance > 0
 };
 
+/// Whether a mask admits a primitive, by whether it transmits light.
+inline bool admits(RayMask mask, bool transmits)
+{
+    return mask == RayMask::all || (mask == RayMask::transmitting) == transmits;
+}
+
 /// What a ray cost: filled only where a tile asks for it.
 struct RayCost {
     std::uint32_t cells = 0;        ///< cells entered, empty ones included

@@ -14,8 +14,9 @@ namespace firstray {
 struct GridEntries {
     RawVector<Aabb> boxes;                     ///< of all entries
     RawVector<RootTriangle<float>> triangles;  ///< of the first entries; the others are quadrics
-    RawVector<std::uint32_t> ids;              ///< of triangles: PrimitiveId, with transmitting_bit
-    float pad = 0.0f;                          ///< boxes count as wider by it, on all sides
+    RawVector<std::uint32_t> ids;              ///< of all entries: PrimitiveId; of triangles with transmitting_bit
+    float blur = 0.0f;  ///< how far the primitives that are tested may be from these, per coordinate
+    float pad = 0.0f;   ///< boxes count as wider by it, on all sides; set by build_grid
 
     std::uint32_t count() const { return static_cast<std::uint32_t>(boxes.size()); }
     bool is_triangle(std::uint32_t entry) const { return entry < triangles.size(); }

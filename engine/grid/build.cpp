@@ -48,6 +48,11 @@ RootTriangle<float> rounded(const RootTriangle<double>& t)
     return {{v0, v1, v2}, longest_edge<float>(v0, v1, v2)};
 }
 
+Aabb bounds_of(const RootTriangle<float>& t)
+{
+    return {glm::min(glm::min(t.v[0], t.v[1]), t.v[2]), glm::max(glm::max(t.v[0], t.v[1]), t.v[2])};
+}
+
 Aabb rounded_outwards(const DAabb& box)
 {
     Aabb result;
@@ -65,28 +70,6 @@ void for_pieces(const Executor* executor, std::size_t count, std::size_t grain,
         executor->for_pieces(count, grain, body);
     else if (count > 0)
         body(0, count);
-}
-
-template <typename Real>
-GridEntries make_entries(const RootGeometry<Real>& geometry, const Executor* executor)
-{
-    GridEntries entries;
-    const std::vector<PrimitiveId>& triangles = geometry.triangles();
-    entries.triangles.resize(triangles.size());
-    entries.ids.resize(triangles.size());
-    entries.boxes.resize(triangles.size() + geometry.quadrics().size());
-    for_pieces(executor, triangles.size(), 8192, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) {
-            const PrimitiveId id = triangles[i];
-            const RootTriangle<float> t = rounded(geometry.triangle(id));
-            entries.triangles[i] = t;
-            entries.ids[i] = id | (geometry.transmits(id) ? transmitting_bit : 0);
-            entries.boxes[i] = {glm::min(glm::min(t.v[0], t.v[1]), t.v[2]), glm::max(glm::max(t.v[0], t.v[1]), t.v[2])};
-        }
-    });
-    for (std::size_t i = 0; i < geometry.quadrics().size(); ++i)
-        entries.boxes[triangles.size() + i] = rounded_outwards(geometry.quadrics()[i].bounds);
-    return entries;
 }
 
 /// How many references to so many entries are within an allowance, in references per entry.
@@ -202,18 +185,60 @@ void lay_out(const GridNode& node, const GridEntries& entries, std::uint32_t lev
 
 }  // namespace
 
+GridOptions grid_options(const StrategyOptions& options)
+{
+    GridOptions grid;
+    if (options.grid_density > 0.0f) grid.density = options.grid_density;
+    if (options.max_list > 0) grid.max_list = options.max_list;
+    grid.depth = options.grid_depth;
+    return grid;
+}
+
 template <typename Real>
-GridStructure build_grid(const RootGeometry<Real>& geometry, const GridOptions& options, const Executor* executor,
+GridEntries make_entries(const RootGeometry<Real>& geometry, const Executor* executor)
+{
+    GridEntries entries;
+    const std::vector<PrimitiveId>& triangles = geometry.triangles();
+    entries.triangles.resize(triangles.size());
+    entries.ids.resize(triangles.size());
+    entries.boxes.resize(triangles.size());
+    for_pieces(executor, triangles.size(), 8192, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            const PrimitiveId id = triangles[i];
+            const RootTriangle<float> t = rounded(geometry.triangle(id));
+            entries.triangles[i] = t;
+            entries.ids[i] = id | (geometry.transmits(id) ? transmitting_bit : 0);
+            entries.boxes[i] = bounds_of(t);
+        }
+    });
+    for (const PrimitiveId id : geometry.quadrics()) add_quadric(entries, geometry.quadric(id));
+    return entries;
+}
+
+void add_triangle(GridEntries& entries, const RootTriangle<float>& triangle, PrimitiveId id, bool transmits)
+{
+    entries.triangles.push_back(triangle);
+    entries.ids.push_back(id | (transmits ? transmitting_bit : 0));
+    entries.boxes.push_back(bounds_of(triangle));
+}
+
+void add_quadric(GridEntries& entries, const RootQuadric& quadric)
+{
+    entries.ids.push_back(quadric.id);
+    entries.boxes.push_back(rounded_outwards(quadric.bounds));
+}
+
+GridStructure build_grid(GridEntries entries, const GridOptions& options, const Executor* executor,
                          std::uint64_t& peak_bytes)
 {
-    GridEntries entries = make_entries(geometry, executor);
     GridStructure structure;
     Aabb bounds;
     for (const Aabb& box : entries.boxes) bounds.grow(box);
     if (bounds.empty()) bounds = {glm::vec3(0.0f), glm::vec3(0.0f)};
     const glm::vec3 farthest = glm::max(glm::abs(bounds.lo), glm::abs(bounds.hi));
     structure.largest = std::max(std::max(farthest.x, farthest.y), farthest.z);
-    structure.pad = entries.pad = std::max(structure.largest * pad_factor, 1e-30f);
+    structure.blur = entries.blur;
+    structure.pad = entries.pad = std::max(structure.largest * pad_factor + entries.blur, 1e-30f);
 
     const std::vector<std::uint32_t> large = largest_triangles(entries, bounds);
     std::vector<std::uint32_t> chosen(entries.count());
@@ -233,13 +258,13 @@ GridStructure build_grid(const RootGeometry<Real>& geometry, const GridOptions& 
     for_pieces(executor, lists.size(), 64, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) fill_list(structure.lists[i], lists[i], entries, structure);
     });
-    peak_bytes = std::max(peak_bytes, structure.bytes() + geometry.bytes() + top->bytes() + entries.bytes() +
-                                          4 * chosen.capacity() + lists.capacity() * sizeof(ListToFill));
+    peak_bytes = std::max(peak_bytes, structure.bytes() + top->bytes() + entries.bytes() + 4 * chosen.capacity() +
+                                          lists.capacity() * sizeof(ListToFill));
     return structure;
 }
 
-template GridStructure build_grid(const RootGeometry<float>&, const GridOptions&, const Executor*, std::uint64_t&);
-template GridStructure build_grid(const RootGeometry<double>&, const GridOptions&, const Executor*, std::uint64_t&);
+template GridEntries make_entries(const RootGeometry<float>&, const Executor*);
+template GridEntries make_entries(const RootGeometry<double>&, const Executor*);
 
 std::uint64_t GridStructure::bytes() const
 {

@@ -2,8 +2,10 @@
 #include <cstdint>
 
 #include "engine/core/executor.h"
+#include "engine/grid/bin.h"
 #include "engine/grid/grid.h"
 #include "engine/strategy/root_geometry.h"
+#include "engine/strategy/strategy.h"
 
 namespace firstray {
 
@@ -15,10 +17,21 @@ struct GridOptions {
     int depth = 3;             ///< levels of grids, >= 1
 };
 
-/// Builds the recursive grid over all primitives of `geometry`, anew. The result does not depend on the executor.
-/// peak_bytes  raised to the most memory held at any time while building, the result included
+/// The shape that the user chose, defaults filled in.
+GridOptions grid_options(const StrategyOptions& options);
+
+/// The visible primitives of `geometry`, which is updated, in the root system.
 template <typename Real>
-GridStructure build_grid(const RootGeometry<Real>& geometry, const GridOptions& options, const Executor* executor,
+GridEntries make_entries(const RootGeometry<Real>& geometry, const Executor* executor);
+
+/// Appends a triangle; all of them must come before the first quadric.
+void add_triangle(GridEntries& entries, const RootTriangle<float>& triangle, PrimitiveId id, bool transmits);
+void add_quadric(GridEntries& entries, const RootQuadric& quadric);
+
+/// Builds the recursive grid over entries, in their own system, anew. The result does not depend on the executor.
+/// executor    null: on this thread
+/// peak_bytes  raised to the most memory held at any time while building, entries and result included
+GridStructure build_grid(GridEntries entries, const GridOptions& options, const Executor* executor,
                          std::uint64_t& peak_bytes);
 
 }  // namespace firstray

@@ -24,16 +24,18 @@ struct alignas(16) Grid {
     std::uint32_t cells() const { return static_cast<std::uint32_t>(dims.x * dims.y * dims.z); }
 };
 
-/// What is in a cell: nothing, a list, or a grid; one word.
+/// What is in a cell: nothing, a list, a grid, or what only the structure's owner knows; one word.
 struct CellWord {
-    static constexpr std::uint32_t subgrid_bit = 0x80000000u;
+    static constexpr std::uint32_t subgrid_bit = 0x80000000u, special_bit = 0x40000000u;
     std::uint32_t bits = 0;
 
     static CellWord list(std::uint32_t index) { return {index + 1}; }
     static CellWord subgrid(std::uint32_t index) { return {index | subgrid_bit}; }
+    static CellWord special(std::uint32_t index) { return {index | special_bit}; }
     bool is_empty() const { return bits == 0; }
     bool is_subgrid() const { return (bits & subgrid_bit) != 0; }
-    std::uint32_t index() const { return is_subgrid() ? bits & ~subgrid_bit : bits - 1; }
+    bool is_special() const { return (bits & special_bit) != 0; }
+    std::uint32_t index() const { return bits < special_bit ? bits - 1 : bits & ~(subgrid_bit | special_bit); }
 };
 
 /// Packs from which on a voxel's packs have boxes: testing a block of boxes costs about as much as a pack.
@@ -49,16 +51,17 @@ struct VoxelList {
     std::uint32_t box_blocks() const { return packs < boxed_packs ? 0 : (packs + pack_size - 1) / pack_size; }
 };
 
-/// A recursive grid and all it lists. Grid 0 is the top grid. Coordinates are the root system's.
+/// A recursive grid and all it lists. Grid 0 is the top grid. Coordinates are the root system's, or those of a box.
 struct GridStructure {
     std::vector<Grid> grids;
     std::vector<CellWord> cells;
     std::vector<VoxelList> lists;
     RawVector<TrianglePack> packs;
     RawVector<PackBoxes> boxes;
-    std::vector<std::uint32_t> quadrics;  ///< of voxels: indices into RootGeometry::quadrics()
+    std::vector<PrimitiveId> quadrics;   ///< of voxels: their PrimitiveIds
     VoxelList large;                      ///< the largest triangles, kept out of the cells: every ray tests them first
     float largest = 0.0f;                 ///< largest coordinate in magnitude: all error bounds scale with it
+    float blur = 0.0f;  ///< how far the primitives that are tested may be from those listed here, per coordinate
     float pad = 0.0f;                     ///< by how much registration and boxes are widened
     std::uint32_t depth = 0;              ///< levels of grids
     std::uint32_t largest_list = 0;       ///< primitives in the fullest voxel

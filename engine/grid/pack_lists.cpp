@@ -112,8 +112,7 @@ void fill_list(const VoxelList& list, const ListToFill& to_fill, const GridEntri
     for (std::uint32_t p = list.packs; p < list.box_blocks() * pack_size; ++p)
         set_box(structure.boxes[list.first_boxes + p / pack_size], p % pack_size, {}, 0.0f);
     for (std::uint32_t q = 0; q < list.quadrics; ++q)
-        structure.quadrics[list.first_quadric + q] =
-            to_fill.entries[triangles + q] - static_cast<std::uint32_t>(entries.triangles.size());
+        structure.quadrics[list.first_quadric + q] = entries.ids[to_fill.entries[triangles + q]];
 }
 
 }  // namespace firstray

@@ -36,116 +36,35 @@ struct CountCost {
     void add_quadric() { ++cost->tests; }
 };
 
-/// A ray on its way: what it looks for and what it has found.
-template <Query query, typename Real, class Cost>
-struct Search {
-    const SearchTarget<Real>& target;
+/// A ray on its way: what it looks for and what it has found, in whatever structures it meets.
+template <Query looks_for, typename RealType, class Cost>
+struct Quest {
+    using Real = RealType;
+    static constexpr Query query = looks_for;
+
     const SearchRay<Real>& ray;
     RayMask mask;
     Cost cost;
-    FilterRay filter;
-    WalkRay walk;
     Hit<Real> hit;
-    float stop = 0.0f;  ///< walk t beyond which no primitive can beat the hit
 
-    float t_stop() const { return stop; }
-    void count_cell() { cost.add_cell(); }
-
-    void update_stop()
-    {
-        const double t = static_cast<double>(hit.t);
-        const double t_last = t + std::abs(t) * t_slack;
-        stop = static_cast<float>(t_last - walk.shift) + walk.t_pad;
-        filter.set_far_end(stop, target.structure->pad);
-    }
-
-    /// Takes a hit if it counts; returns whether the ray is done.
-    bool offer(Real t, Real u, Real v, PrimitiveId id)
+    /// Takes a hit if it counts; returns whether it does.
+    bool take(Real t, Real u, Real v, PrimitiveId id)
     {
         if (!(t > ray.t_min) || !hit.is_beaten_by(t, id)) return false;
         hit = {t, u, v, id};
-        if constexpr (query == Query::any) return true;
-        update_stop();
-        return false;
-    }
-
-    HWY_INLINE bool pack(const TrianglePack& pack)
-    {
-        cost.add_tests(pack);
-        std::uint32_t lanes = candidates(pack, filter);
-        for (; lanes != 0; lanes &= lanes - 1) {
-            const int lane = __builtin_ctz(lanes);
-            const std::uint32_t marked = pack.id[lane];
-            const PrimitiveId id = marked & ~transmitting_bit;
-            if (id == hit.id || !admits(mask, (marked & transmitting_bit) != 0)) continue;
-            const TriangleHit<Real> found = intersect_lane(pack, lane, id);
-            if (found.hit && offer(found.t, found.u, found.v, id)) return true;
-        }
-        return false;
-    }
-
-    TriangleHit<Real> intersect_lane(const TrianglePack& pack, int lane, PrimitiveId id) const
-    {
-        if constexpr (std::is_same_v<Real, float>)
-            return intersect_precisely(pack.triangle(lane), ray, target.precision, hit.t);
-        else
-            return intersect_precisely(target.geometry->triangle(id), ray, target.precision, hit.t);
-    }
-
-    bool quadrics(const VoxelList& voxel)
-    {
-        for (std::uint32_t q = 0; q < voxel.quadrics; ++q) {
-            const RootQuadric& quadric =
-                target.geometry->quadrics()[target.structure->quadrics[voxel.first_quadric + q]];
-            cost.add_quadric();
-            if (!admits(mask, quadric.transmits)) continue;
-            const Real t = intersect_rounded(quadric, ray);
-            if (std::isfinite(t) && offer(t, 0, 0, quadric.id)) return true;
-        }
-        return false;
-    }
-
-    /// Tests a voxel's primitives; returns whether the ray is done.
-    HWY_INLINE bool list(const VoxelList& voxel, float t_enter)
-    {
-        const TrianglePack* packs = target.structure->packs.data() + voxel.first_pack;
-        if (voxel.packs < boxed_packs) {
-            if (voxel.packs == 1 && pack(packs[0])) return true;
-        } else {
-            for (std::uint32_t block = 0; block < voxel.box_blocks(); ++block)
-                if (boxed(target.structure->boxes[voxel.first_boxes + block], packs + block * pack_size, t_enter))
-                    return true;
-        }
-        return voxel.quadrics > 0 && quadrics(voxel);
-    }
-
-    HWY_INLINE bool boxed(const PackBoxes& boxes, const TrianglePack* packs, float t_enter)
-    {
-        alignas(64) float entries[pack_size];
-        for (std::uint32_t met = boxes_met(boxes, walk, t_enter - walk.t_pad, stop, entries); met != 0;
-             met &= met - 1) {
-            const int lane = __builtin_ctz(met);
-            if (entries[lane] <= stop && pack(packs[lane])) return true;
-        }
-        return false;
-    }
-
-    template <class Resolver>
-    HWY_NOINLINE bool enter(const Grid& grid, const WalkRay& walk_ray, float t_begin, float t_end,
-                            const Resolver& resolve)
-    {
-        return traverse(grid, walk_ray, t_begin, std::min(t_end, stop), resolve, *this);
+        return true;
     }
 };
 
-/// Moves the ray to where it enters the grid's box; false when it does not.
-template <typename Real>
-HWY_INLINE bool make_walk_ray(const SearchRay<Real>& ray, const Grid& top, float pad, WalkRay& walk)
+/// Moves a ray to where it enters a box, given by its corners; false when it does not.
+/// o, d            origin and direction in the box's system
+/// t_min, t_max    where hits are of interest
+/// pad             by how much the box is widened
+HWY_INLINE bool make_walk_ray(const glm::dvec3& o, const glm::dvec3& d, double t_min, double t_max,
+                              const glm::dvec3& lo, const glm::dvec3& hi, float pad, WalkRay& walk)
 {
-    const glm::dvec3 o(ray.origin), d(ray.direction), lo(top.lo), hi(top.hi());
-    // A hit's t is off by its slack; one that lies before t_min by that much can still be found beyond it.
-    const double t_min = static_cast<double>(ray.t_min);
-    double enter = t_min - std::abs(t_min) * t_slack, leave = static_cast<double>(ray.t_max);
+    // A hit's t is off by its slack; one that lies outside the interval by that much can still be found inside it.
+    double enter = t_min - std::abs(t_min) * t_slack, leave = t_max + std::abs(t_max) * t_slack;
     const double wide = 2.0 * static_cast<double>(pad);
     double length = 0.0;
     for (int axis = 0; axis < 3; ++axis) {
@@ -171,24 +90,162 @@ HWY_INLINE bool make_walk_ray(const SearchRay<Real>& ray, const Grid& top, float
     return true;
 }
 
-template <Query query, typename Real, class Cost, class Resolver>
-HWY_INLINE void search_ray(const SearchTarget<Real>& target, const Resolver& resolve, const SearchRay<Real>& ray,
-                           int lane, Cost cost, RayTile<Real>& tile)
+/// The walk t beyond which no primitive can beat a hit at t.
+template <typename Real>
+HWY_INLINE float stop_of(Real t, const WalkRay& walk)
 {
-    const GridStructure& structure = *target.structure;
-    Search<query, Real, Cost> search{target, ray, tile.mask, cost, {}, {}, {ray.t_max}};
-    if (!make_walk_ray(ray, structure.grids[0], structure.pad, search.walk)) return;
-    search.filter =
-        make_filter_ray(ray, search.walk.exact_inverse, structure.largest, target.precision == Precision::fast);
-    search.filter.set_near_end(search.walk, structure.pad);
-    search.update_stop();
-    if (!search.list(structure.large, 0.0f))
-        traverse(structure.grids[0], search.walk, 0.0f, search.stop, resolve, search);
-    store_hit(ray, search.hit, tile, lane);
+    const double at = static_cast<double>(t);
+    return static_cast<float>(at + std::abs(at) * t_slack - walk.shift) + walk.t_pad;
 }
 
-template <Query query, typename Real, class Resolver>
-void search_tile(const SearchTarget<Real>& target, const Resolver& resolve, RayTile<Real>& tile)
+/// A quest's search of one structure.
+/// Primitives  what is tested: `triangle(pack, lane, id, t_last)` and `quadric(id)` give hits, in the system and the
+///             precision that decide them
+template <class Quest, class Primitives>
+struct Search {
+    using Real = typename Quest::Real;
+
+    Quest& quest;
+    const Primitives& primitives;
+    const GridStructure& structure;
+    WalkRay walk{};
+    FilterRay filter{};
+    float stop = 0.0f;  ///< walk t beyond which no primitive can beat the hit
+
+    /// Moves the ray to where it enters the structure; false when it does not.
+    /// o, d   origin and direction in the structure's system
+    /// loose  see make_filter_ray
+    HWY_INLINE bool begin(const glm::dvec3& o, const glm::dvec3& d, float loose)
+    {
+        const Grid& top = structure.grids[0];
+        if (!make_walk_ray(o, d, static_cast<double>(quest.ray.t_min), static_cast<double>(quest.hit.t),
+                           glm::dvec3(top.lo), glm::dvec3(top.hi()), structure.pad, walk))
+            return false;
+        filter = make_filter_ray(o, d, walk.exact_inverse, structure.largest, structure.blur, loose);
+        filter.set_near_end(walk, structure.pad);
+        update_stop();
+        return true;
+    }
+
+    /// Searches from there on; returns whether the ray is done.
+    template <class Resolver>
+    HWY_INLINE bool run(const Resolver& resolve)
+    {
+        return list(structure.large, 0.0f) || traverse(structure.grids[0], walk, 0.0f, stop, resolve, *this);
+    }
+
+    float t_stop() const { return stop; }
+    void count_cell() { quest.cost.add_cell(); }
+
+    void update_stop()
+    {
+        stop = stop_of(quest.hit.t, walk);
+        filter.set_far_end(stop, structure.pad);
+    }
+
+    /// Takes a hit if it counts; returns whether the ray is done.
+    bool offer(Real t, Real u, Real v, PrimitiveId id)
+    {
+        if (!quest.take(t, u, v, id)) return false;
+        if constexpr (Quest::query == Query::any) return true;
+        update_stop();
+        return false;
+    }
+
+    HWY_INLINE bool pack(const TrianglePack& pack)
+    {
+        quest.cost.add_tests(pack);
+        std::uint32_t lanes = candidates(pack, filter);
+        for (; lanes != 0; lanes &= lanes - 1) {
+            const int lane = __builtin_ctz(lanes);
+            const std::uint32_t marked = pack.id[lane];
+            const PrimitiveId id = marked & ~transmitting_bit;
+            if (id == quest.hit.id || !admits(quest.mask, (marked & transmitting_bit) != 0)) continue;
+            const TriangleHit<Real> found = primitives.triangle(pack, lane, id, quest.hit.t);
+            if (found.hit && offer(found.t, found.u, found.v, id)) return true;
+        }
+        return false;
+    }
+
+    bool quadrics(const VoxelList& voxel)
+    {
+        for (std::uint32_t q = 0; q < voxel.quadrics; ++q) {
+            const PrimitiveId id = structure.quadrics[voxel.first_quadric + q];
+            quest.cost.add_quadric();
+            const Real t = primitives.quadric(id, quest.mask);
+            if (std::isfinite(t) && offer(t, 0, 0, id)) return true;
+        }
+        return false;
+    }
+
+    /// Tests a voxel's primitives; returns whether the ray is done.
+    HWY_INLINE bool list(const VoxelList& voxel, float t_enter)
+    {
+        const TrianglePack* packs = structure.packs.data() + voxel.first_pack;
+        if (voxel.packs < boxed_packs) {
+            if (voxel.packs == 1 && pack(packs[0])) return true;
+        } else {
+            for (std::uint32_t block = 0; block < voxel.box_blocks(); ++block)
+                if (boxed(structure.boxes[voxel.first_boxes + block], packs + block * pack_size, t_enter)) return true;
+        }
+        return voxel.quadrics > 0 && quadrics(voxel);
+    }
+
+    HWY_INLINE bool boxed(const PackBoxes& boxes, const TrianglePack* packs, float t_enter)
+    {
+        alignas(64) float entries[pack_size];
+        for (std::uint32_t met = boxes_met(boxes, walk, t_enter - walk.t_pad, stop, entries); met != 0;
+             met &= met - 1) {
+            const int lane = __builtin_ctz(met);
+            if (entries[lane] <= stop && pack(packs[lane])) return true;
+        }
+        return false;
+    }
+
+    template <class Resolver>
+    HWY_INLINE bool visit(const Voxel& voxel, float t_enter, float t_leave, const Resolver& resolve)
+    {
+        return voxel.subgrid ? enter(*voxel.subgrid, t_enter, t_leave, resolve) : list(*voxel.list, t_enter);
+    }
+
+    template <class Resolver>
+    HWY_NOINLINE bool enter(const Grid& grid, float t_begin, float t_end, const Resolver& resolve)
+    {
+        return traverse(grid, walk, t_begin, std::min(t_end, stop), resolve, *this);
+    }
+};
+
+/// The primitives of a structure in the root system, where hits are decided.
+template <typename Real>
+struct RootPrimitives {
+    const RootGeometry<Real>& geometry;
+    const SearchRay<Real>& ray;
+    Precision precision;
+
+    HWY_INLINE TriangleHit<Real> triangle(const TrianglePack& pack, int lane, PrimitiveId id, Real t_last) const
+    {
+        if constexpr (std::is_same_v<Real, float>)
+            return intersect_precisely(pack.triangle(lane), ray, precision, t_last);
+        else
+            return intersect_precisely(geometry.triangle(id), ray, precision, t_last);
+    }
+    Real quadric(PrimitiveId id, RayMask mask) const { return intersect_rounded(geometry.quadric(id), ray, mask); }
+};
+
+/// Searches a whole structure in the root system for a quest; returns whether the ray is done.
+template <class Quest, class Resolver>
+HWY_INLINE void search_root(const SearchTarget<typename Quest::Real>& target, const Resolver& resolve, Quest& quest)
+{
+    const RootPrimitives<typename Quest::Real> primitives{*target.geometry, quest.ray, target.precision};
+    Search<Quest, RootPrimitives<typename Quest::Real>> search{quest, primitives, *target.structure};
+    const bool loose = target.precision == Precision::fast;
+    if (search.begin(glm::dvec3(quest.ray.origin), glm::dvec3(quest.ray.direction), loose ? 1.0f : 0.0f))
+        search.run(resolve);
+}
+
+/// Sends every ray of a tile on its quest: `searcher(quest)` searches whatever there is.
+template <Query query, typename Real, class Searcher>
+HWY_INLINE void search_tile(RayTile<Real>& tile, const Searcher& searcher)
 {
     using Clock = std::chrono::steady_clock;
     for (int lane = 0; lane < tile.count; ++lane) {
@@ -196,11 +253,15 @@ void search_tile(const SearchTarget<Real>& target, const Resolver& resolve, RayT
         SearchRay<Real> ray;
         if (!make_search_ray(tile, lane, ray)) continue;
         if (tile.cost == nullptr) {
-            search_ray<query>(target, resolve, ray, lane, NoCost{}, tile);
+            Quest<query, Real, NoCost> quest{ray, tile.mask, {}, {ray.t_max}};
+            searcher(quest);
+            store_hit(ray, quest.hit, tile, lane);
             continue;
         }
         const Clock::time_point begin = Clock::now();
-        search_ray<query>(target, resolve, ray, lane, CountCost{tile.cost + lane}, tile);
+        Quest<query, Real, CountCost> quest{ray, tile.mask, {tile.cost + lane}, {ray.t_max}};
+        searcher(quest);
+        store_hit(ray, quest.hit, tile, lane);
         tile.cost[lane].nanoseconds += static_cast<std::uint64_t>((Clock::now() - begin).count());
     }
 }

@@ -31,21 +31,32 @@ private:
     const Grid* HWY_RESTRICT grids_;
 };
 
+template <typename Real>
+struct GridSearcher {
+    const SearchTarget<Real>& target;
+
+    template <class Quest>
+    HWY_INLINE void operator()(Quest& quest) const
+    {
+        search_root(target, EagerResolver(*target.structure), quest);
+    }
+};
+
 void closest_float(const SearchTarget<float>& target, RayTile<float>& tile)
 {
-    search_tile<Query::closest>(target, EagerResolver(*target.structure), tile);
+    search_tile<Query::closest>(tile, GridSearcher<float>{target});
 }
 void closest_double(const SearchTarget<double>& target, RayTile<double>& tile)
 {
-    search_tile<Query::closest>(target, EagerResolver(*target.structure), tile);
+    search_tile<Query::closest>(tile, GridSearcher<double>{target});
 }
 void any_float(const SearchTarget<float>& target, RayTile<float>& tile)
 {
-    search_tile<Query::any>(target, EagerResolver(*target.structure), tile);
+    search_tile<Query::any>(tile, GridSearcher<float>{target});
 }
 void any_double(const SearchTarget<double>& target, RayTile<double>& tile)
 {
-    search_tile<Query::any>(target, EagerResolver(*target.structure), tile);
+    search_tile<Query::any>(tile, GridSearcher<double>{target});
 }
 
 }  // namespace HWY_NAMESPACE

@@ -14,16 +14,16 @@ namespace firstray {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// What a resolver says of a cell that is not empty: either a list or a grid.
+/// What the usual resolver says of a cell that is not empty: either a list or a grid.
 struct Voxel {
     const VoxelList* list;
     const Grid* subgrid;
 };
 
 /// Walks a ray through the cells of a grid, and of the grids in them, nearest first, from walk t `t_begin` to `t_end`.
-/// resolve  the cells' words by index (`word(cell)`), and what a word stands for (`voxel(word)`)
-/// search   `search.list(list, t_enter)` tests a voxel's primitives and returns whether the ray is done;
-///          `search.t_stop()` is the walk t beyond which nothing is of interest
+/// resolve  the cells' words by index (`word(cell)`), and what a word stands for (`voxel(word, cell)`)
+/// search   `search.visit(voxel, t_enter, t_leave, resolve)` does what is to be done in a voxel and returns whether the
+///          ray is done; `search.t_stop()` is the walk t beyond which nothing is of interest
 /// returns  whether the ray is done
 ///
 /// The plane between cells i-1 and i of an axis is crossed at i * step + base: computed from i and never accumulated,
@@ -76,9 +76,7 @@ HWY_INLINE bool traverse(const Grid& grid, const WalkRay& ray, float t_begin, fl
         const CellWord word = resolve.word(index);
         search.count_cell();
         if (HWY_UNLIKELY(!word.is_empty())) {
-            const Voxel voxel = resolve.voxel(word, index);
-            if (voxel.subgrid ? search.enter(*voxel.subgrid, ray, t, t_next, resolve) : search.list(*voxel.list, t))
-                return true;
+            if (search.visit(resolve.voxel(word, index), t, t_next, resolve)) return true;
             t_last = std::min(t_leave, search.t_stop());
         }
         if (t_next >= t_last) return false;

@@ -72,13 +72,16 @@ struct FilterRay {
     }
 };
 
+/// o, d     origin and direction in the structure's system
 /// inverse  1 / direction, where it is not 0
 /// largest  the structure's largest coordinate
-/// loose    admit also what Precision::fast may take for a hit
-template <typename Real>
-HWY_INLINE FilterRay make_filter_ray(const SearchRay<Real>& ray, const glm::dvec3& inverse, float largest, bool loose)
+/// blur     how far a corner that the test sees may be from its place in the pack, per coordinate
+/// loose    admit also what Precision::fast may take for a hit: how much larger its error is in the structure's system
+///          than in its own (1 where they are the same); 0 admits only what the ray meets
+HWY_INLINE FilterRay make_filter_ray(const glm::dvec3& o, const glm::dvec3& d, const glm::dvec3& inverse, float largest,
+                                     float blur, float loose)
 {
-    const glm::dvec3 o(ray.origin), d(ray.direction), along = glm::abs(d);
+    const glm::dvec3 along = glm::abs(d);
     FilterRay f;
     f.z = along.x > along.y ? (along.x > along.z ? 0 : 2) : (along.y > along.z ? 1 : 2);
     f.x = f.z == 2 ? 0 : f.z + 1;
@@ -92,14 +95,14 @@ HWY_INLINE FilterRay make_filter_ray(const SearchRay<Real>& ray, const glm::dvec
     f.start_y = static_cast<float>(o[f.y] - slope_y * o[f.z]);
     // A sheared vertex is off by at most 16 half ulps of the largest coordinate (1 for the slope, 2 or 3 for the
     // product and difference, 6 for the start, 4 for the last difference, 2 for rounding the vertex where it came from
-    // double). Corners of a triangle that the ray meets are within 2 edges of the ray, so the side's error is at most
+    // double), and by twice the blur. Corners of a triangle that the ray meets are within 2 edges of the ray, so the side's error is at most
     // 12 * off * edge + 2 * off^2.
-    const float off = largest * 0x1p-20f;
+    const float off = largest * 0x1p-20f + 2.0f * blur;
     f.error_per_edge = 12.0f * off;
     f.error = 2.0f * off * off + std::numeric_limits<float>::min();
-    if (loose) {
+    if (loose > 0.0f) {
         const float reach = static_cast<float>(std::max(std::max(std::abs(o.x), std::abs(o.y)), std::abs(o.z)));
-        f.error_per_edge += side_error<float> * (largest + reach);
+        f.error_per_edge += loose * side_error<float> * (largest + reach);
     }
     return f;
 }

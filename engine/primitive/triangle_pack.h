@@ -45,10 +45,4 @@ struct alignas(64) PackBoxes {
     float lo[3][pack_size], hi[3][pack_size];
 };
 
-/// Whether a mask admits a primitive, by the mark in its id.
-inline bool admits(RayMask mask, bool transmits)
-{
-    return mask == RayMask::all || (mask == RayMask::transmitting) == transmits;
-}
-
 }  // namespace firstray

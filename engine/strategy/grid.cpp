@@ -8,14 +8,6 @@
 namespace firstray {
 namespace {
 
-GridOptions grid_options(const StrategyOptions& options)
-{
-    GridOptions grid;
-    if (options.grid_density > 0.0f) grid.density = options.grid_density;
-    if (options.max_list > 0) grid.max_list = options.max_list;
-    grid.depth = options.grid_depth;
-    return grid;
-}
 
 template <typename Real>
 class GridStrategy final : public Strategy<Real> {
@@ -26,7 +18,10 @@ public:
     {
         structure_ = {};  // given back first: the old and the new one are never held together
         geometry_.update(pose, options_.executor);
-        structure_ = build_grid(geometry_, grid_options(options_), options_.executor, peak_bytes_);
+        std::uint64_t built_bytes = 0;
+        structure_ = build_grid(make_entries(geometry_, options_.executor), grid_options(options_), options_.executor,
+                                built_bytes);
+        peak_bytes_ = std::max(peak_bytes_, built_bytes + geometry_.bytes());
     }
     void closest(RayTile<Real>& rays) const override { search_closest(target(), rays); }
     void occluded(RayTile<Real>& rays) const override { search_any(target(), rays); }

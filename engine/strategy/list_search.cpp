@@ -86,11 +86,12 @@ void search_tile(const RootGeometry<Real>& geometry, Precision precision, bool a
         if (++tests % 4096 == 0 && is_done()) break;
         test_triangle(geometry.triangle(id), id, precision, *search);
     }
-    for (const RootQuadric& quadric : geometry.quadrics()) {
+    for (const PrimitiveId id : geometry.quadrics()) {
+        const RootQuadric& quadric = geometry.quadric(id);
         if (!admits(tile.mask, quadric.transmits)) continue;
         ++tests;
         for (std::size_t i = 0; i < static_cast<std::size_t>(search->lanes.count); ++i) {
-            const Real t = intersect_rounded(quadric, search->rays[i]);
+            const Real t = intersect_rounded(quadric, search->rays[i], tile.mask);
             if (std::isfinite(t)) search->offer(i, t, 0, 0, quadric.id);
         }
     }

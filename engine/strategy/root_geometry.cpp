@@ -16,66 +16,111 @@ bool has_finite_corners(const auto& triangle)
 template <typename Real>
 RootGeometry<Real>::RootGeometry(const Scene& scene)
     : scene_(scene),
+      placed_(scene.quadrics.size()),
       corners_(scene.primitive_count()),
       transmits_(scene.primitive_count()),
-      is_carried_(scene.groups.size()),
+      carried_(scene.groups.size()),
       was_visible_(scene.groups.size())
 {
     vertices_.resize(scene.positions.size());
     for (const Part& part : scene.parts) {
         const Group& group = scene.groups[part.group];
         for (PrimitiveId id = part.first; id < part.first + part.count; ++id) {
+            const std::uint32_t index = id - group.first;
             transmits_[id] = scene.materials[part.material].transmits();
-            if (id - group.first < group.triangles)
-                corners_[id] = scene.triangles[id - group.first + group.first_triangle].vertex;
+            corners_[id] = index < group.triangles ? scene.triangles[index + group.first_triangle].vertex
+                                                   : glm::uvec3(index - group.triangles + group.first_quadric);
         }
     }
 }
 
 template <typename Real>
+bool RootGeometry<Real>::moves(std::uint32_t group) const
+{
+    return scene_.groups[group].node != 0 || scene_.groups[group].deforming;
+}
+
+template <typename Real>
+void RootGeometry<Real>::carry(const Pose& pose, std::uint32_t group) const
+{
+    const Group& g = scene_.groups[group];
+    carry_vertices(pose, g, vertices_.data() + g.first_vertex);
+    for (std::uint32_t i = 0; i < g.quadrics; ++i) {
+        const PrimitiveId id = g.first + g.triangles + i;
+        placed_[g.first_quadric + i] =
+            place_quadric(scene_.quadrics[g.first_quadric + i], pose.root_from_node[g.node], id, transmits(id));
+    }
+    carried_[group].store(Carried::yes, std::memory_order_release);
+}
+
+template <typename Real>
 void RootGeometry<Real>::update(const Pose& pose, const Executor* executor)
 {
-    std::vector<const Group*> to_carry;
-    for (const Group& group : scene_.groups)
-        if (pose.is_visible(group) && !is_carried_[static_cast<std::size_t>(&group - scene_.groups.data())])
-            to_carry.push_back(&group);
-
-    const auto carry = [&](std::size_t i) {
-        carry_vertices(pose, *to_carry[i], vertices_.data() + to_carry[i]->first_vertex);
-    };
+    update_on_touch(pose);
+    std::vector<std::uint32_t> to_carry;
+    for (std::uint32_t group = 0; group < scene_.groups.size(); ++group)
+        if (pose.is_visible(scene_.groups[group]) && carried_[group].load() != Carried::yes) to_carry.push_back(group);
+    const auto carry_one = [&](std::size_t i) { carry(pose, to_carry[i]); };
     if (executor)
-        executor->for_each(to_carry.size(), carry);
+        executor->for_each(to_carry.size(), carry_one);
     else
-        for (std::size_t i = 0; i < to_carry.size(); ++i) carry(i);
+        for (std::size_t i = 0; i < to_carry.size(); ++i) carry_one(i);
     list_visible(pose);
+    pose_ = nullptr;
+}
+
+template <typename Real>
+void RootGeometry<Real>::update_on_touch(const Pose& pose)
+{
+    pose_ = &pose;
+    for (std::uint32_t group = 0; group < scene_.groups.size(); ++group)
+        if (moves(group)) carried_[group].store(Carried::no, std::memory_order_relaxed);
+}
+
+template <typename Real>
+bool RootGeometry<Real>::carry_if_first(std::uint32_t group) const
+{
+    Carried expected = Carried::no;
+    if (!carried_[group].compare_exchange_strong(expected, Carried::begun, std::memory_order_acquire))
+        return expected == Carried::yes;
+    carry(*pose_, group);
+    return true;
+}
+
+template <typename Real>
+RootTriangle<Real> RootGeometry<Real>::carried_alone(PrimitiveId id) const
+{
+    const std::array<glm::dvec3, 3> corners = triangle_corners(*pose_, id);
+    const Vec v0(corners[0]), v1(corners[1]), v2(corners[2]);
+    return {{v0, v1, v2}, longest_edge<Real>(v0, v1, v2)};
+}
+
+template <typename Real>
+RootQuadric RootGeometry<Real>::quadric_of(std::uint32_t group, PrimitiveId id) const
+{
+    if (touch(group)) return quadric(id);
+    return place_quadric(scene_.quadrics[corners_[id].x], pose_->root_from_node[scene_.groups[group].node], id,
+                         transmits(id));
 }
 
 template <typename Real>
 void RootGeometry<Real>::list_visible(const Pose& pose)
 {
     bool same_groups = !triangles_.empty() || !quadrics_.empty();
-    bool quadrics_move = false;
     for (std::size_t g = 0; g < scene_.groups.size(); ++g) {
-        const Group& group = scene_.groups[g];
-        const std::uint8_t visible = pose.is_visible(group);
+        const std::uint8_t visible = pose.is_visible(scene_.groups[g]);
         same_groups = same_groups && visible == was_visible_[g];
         was_visible_[g] = visible;
-        quadrics_move = quadrics_move || (group.quadrics > 0 && !is_carried_[g]);
-        is_carried_[g] = visible && group.node == 0 && !group.deforming;
     }
-    if (!same_groups) triangles_.clear();
-    if (!same_groups || quadrics_move) quadrics_.clear();
+    if (same_groups) return;
+    triangles_.clear();
+    quadrics_.clear();
     for (const Group& group : scene_.groups) {
         if (!pose.is_visible(group)) continue;
-        if (!same_groups)
-            for (PrimitiveId id = group.first; id < group.first + group.triangles; ++id)
-                if (has_finite_corners(triangle(id))) triangles_.push_back(id);
-        if (same_groups && !quadrics_move) continue;
-        for (std::uint32_t i = 0; i < group.quadrics; ++i) {
-            const PrimitiveId id = group.first + group.triangles + i;
-            quadrics_.push_back(place_quadric(scene_.quadrics[group.first_quadric + i], pose.root_from_node[group.node],
-                                              id, transmits(id)));
-        }
+        for (PrimitiveId id = group.first; id < group.first + group.triangles; ++id)
+            if (has_finite_corners(triangle(id))) triangles_.push_back(id);
+        for (PrimitiveId id = group.first + group.triangles; id < group.first + group.primitives(); ++id)
+            quadrics_.push_back(id);
     }
 }
 
@@ -83,7 +128,8 @@ template <typename Real>
 std::uint64_t RootGeometry<Real>::bytes() const
 {
     return vertices_.capacity() * sizeof(Vec) + corners_.capacity() * sizeof(glm::uvec3) + transmits_.capacity() +
-           triangles_.capacity() * sizeof(PrimitiveId) + quadrics_.capacity() * sizeof(RootQuadric);
+           (triangles_.capacity() + quadrics_.capacity()) * sizeof(PrimitiveId) +
+           placed_.capacity() * sizeof(RootQuadric);
 }
 
 template class RootGeometry<float>;

@@ -1,4 +1,5 @@
 #pragma once
+#include <atomic>
 #include <cstdint>
 #include <vector>
 
@@ -11,7 +12,7 @@
 namespace firstray {
 
 /// All visible primitives of a pose, carried into the root system: what is tested, whatever structure chooses it.
-/// Groups that cannot move are carried once; the others at every update.
+/// Groups that cannot move are carried once; the others at every update, or when they are first touched after it.
 template <typename Real>
 class RootGeometry {
 public:
@@ -19,33 +20,60 @@ public:
 
     explicit RootGeometry(const Scene& scene);
 
-    /// Runs alone. The pose is not kept.
+    /// Carries every visible group and lists what is visible. Runs alone. The pose is not kept.
     void update(const Pose& pose, const Executor* executor);
 
-    /// Ids of visible triangles and quadrics, ascending; valid until the next update.
-    const std::vector<PrimitiveId>& triangles() const { return triangles_; }
-    const std::vector<RootQuadric>& quadrics() const { return quadrics_; }
+    /// Carries nothing: that is left to touch(). Runs alone. The pose must live until the next update.
+    void update_on_touch(const Pose& pose);
 
+    /// Has a visible group carried, by the first thread that asks; any number of threads. False while another thread is
+    /// at it: nobody waits, carried() makes single primitives.
+    bool touch(std::uint32_t group) const
+    {
+        return carried_[group].load(std::memory_order_acquire) == Carried::yes || carry_if_first(group);
+    }
+
+    /// Ids of visible triangles and quadrics, ascending; valid until the next update. Only after update().
+    const std::vector<PrimitiveId>& triangles() const { return triangles_; }
+    const std::vector<PrimitiveId>& quadrics() const { return quadrics_; }
+
+    /// Primitives of groups that are carried.
     RootTriangle<Real> triangle(PrimitiveId id) const
     {
         const glm::uvec3& c = corners_[id];
         const Vec &v0 = vertices_[c.x], &v1 = vertices_[c.y], &v2 = vertices_[c.z];
         return {{v0, v1, v2}, longest_edge<Real>(v0, v1, v2)};
     }
+    const RootQuadric& quadric(PrimitiveId id) const { return placed_[corners_[id].x]; }
+
+    /// The same, the same bits, where the group may not have been touched yet. Only after update_on_touch().
+    RootTriangle<Real> triangle_of(std::uint32_t group, PrimitiveId id) const
+    {
+        return touch(group) ? triangle(id) : carried_alone(id);
+    }
+    RootQuadric quadric_of(std::uint32_t group, PrimitiveId id) const;
+
     bool transmits(PrimitiveId id) const { return transmits_[id] != 0; }
     std::uint64_t bytes() const;
 
 private:
+    enum class Carried : std::uint8_t { no, begun, yes };
+
+    bool carry_if_first(std::uint32_t group) const;
+    void carry(const Pose& pose, std::uint32_t group) const;
+    RootTriangle<Real> carried_alone(PrimitiveId id) const;
     void list_visible(const Pose& pose);
+    bool moves(std::uint32_t group) const;
 
     const Scene& scene_;
-    RawVector<Vec> vertices_;                ///< by index in Scene::positions
-    std::vector<glm::uvec3> corners_;        ///< by PrimitiveId, into vertices_
-    std::vector<std::uint8_t> transmits_;    ///< by PrimitiveId
-    std::vector<std::uint8_t> is_carried_;   ///< by group: already where it will always be
-    std::vector<std::uint8_t> was_visible_;  ///< by group, at the last update
-    std::vector<PrimitiveId> triangles_;
-    std::vector<RootQuadric> quadrics_;
+    const Pose* pose_ = nullptr;               ///< for groups that are carried when touched
+    mutable RawVector<Vec> vertices_;          ///< by index in Scene::positions
+    mutable std::vector<RootQuadric> placed_;  ///< by index in Scene::quadrics
+    std::vector<glm::uvec3> corners_;  ///< by PrimitiveId: of a triangle, into vertices_; of a quadric, x: into placed_
+    std::vector<std::uint8_t> transmits_;                ///< by PrimitiveId
+    mutable std::vector<std::atomic<Carried>> carried_;  ///< by group
+    std::vector<std::uint8_t> was_visible_;              ///< by group, at the last update
+    std::vector<PrimitiveId> triangles_, quadrics_;
 };
 
 }  // namespace firstray
