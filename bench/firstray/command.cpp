@@ -69,6 +69,8 @@ void add_render(CLI::App& app, RenderJob& job)
     add_int(app, "--spp", job.samples, 1, 4096, "samples per pixel; default 1");
     add_search(app, job.search);
     add(app, "--aov", job.aovs, "LIST", "layers of an EXR: distance,primitive,group,cells,tests,time");
+    app.add_flag("--structure", job.structure,
+                 "draw boxes and filled cells over the pictures; fades those a few pixels wide");
     add(app, "--output", job.output, "NAME", "a run of # is the frame; default SCENE.####.png here, .exr with --aov");
     add(app, "--stats", job.stats, "FILE", "write times, rays and structure of every frame as JSON");
     app.add_flag("--table", job.table, "print a line of times per frame to standard output");

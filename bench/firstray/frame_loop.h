@@ -50,6 +50,8 @@ public:
     }
 
     const Pose& current_pose() const { return poses_[current_]; }
+    /// Of the structure as the last frame left it.
+    std::vector<StructureBox> outline() const { return strategy_.outline(); }
 
 private:
     const Scene& scene_;

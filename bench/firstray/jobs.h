@@ -34,11 +34,15 @@ struct RenderJob {
     std::string stats;   ///< empty: none
     std::string progress = "auto";
     bool table = false;
+    bool structure = false;  ///< draw it over the pictures
 };
 
 struct InfoJob {
     SceneChoice scene;
     bool json = false;
+    bool structure = false;  ///< also tell of the structure, which the others choose
+    SearchChoice search;
+    int frame = 0;
 };
 
 struct TraceJob {

@@ -11,6 +11,7 @@
 #include "bench/firstray/stats.h"
 #include "bench/firstray/words.h"
 #include "engine/aff/reader.h"
+#include "engine/render/draw_structure.h"
 
 namespace firstray::command {
 namespace {
@@ -77,6 +78,7 @@ Json settings_of(const RenderJob& job, const Plan& plan, const Executor& executo
             {"grid_depth", job.search.grid_depth},
             {"allow_outside", job.scene.allow_outside},
             {"aov", job.aovs},
+            {"structure", job.structure},
             {"output", plan.output}};
 }
 
@@ -104,6 +106,17 @@ private:
     std::set<std::uint32_t> warned_;
 };
 
+/// The outline is drawn over a copy: the picture itself is what was hashed.
+void write_picture(const RenderJob& job, const Plan& plan, const Pose& pose, int frame, const Frame& picture,
+                   std::span<const StructureBox> outline)
+{
+    const auto write = [&](const Frame& shown) {
+        image::write_frame(frame_file(plan.output, frame), shown, plan.aovs, attributes_of(job, *pose.scene, frame));
+    };
+    if (outline.empty()) return write(picture);
+    write(draw_structure(picture, camera_rays(pose, picture.width, picture.height), outline));
+}
+
 struct Totals {
     double update_ms = 0.0, trace_ms = 0.0;
 };
@@ -116,18 +129,23 @@ Totals render_frames(const RenderJob& job, const Plan& plan, FrameLoop<Real>& lo
     Progress progress(streams.err, style_of(job, streams.terminal), plan.frames.size());
     SingularWarnings warnings;
     Frame picture;
+    bool drawn = false;
     if (job.table) streams.out << table_heading();
     for (const int frame : plan.frames) {
         const FrameStats stats = loop.render(frame, picture);
         const Pose& pose = loop.current_pose();
         warnings.add(pose, frame, progress);
-        image::write_frame(frame_file(plan.output, frame), picture, plan.aovs, attributes_of(job, *pose.scene, frame));
+        const std::vector<StructureBox> outline = job.structure ? loop.outline() : std::vector<StructureBox>{};
+        write_picture(job, plan, pose, frame, picture, outline);
+        drawn = drawn || !outline.empty();
         stats_file.add(stats);
         if (job.table) streams.out << table_row(stats) << std::flush;
         progress.frame_done(frame);
         totals.update_ms += stats.update_ms;
         totals.trace_ms += stats.trace_ms;
     }
+    if (job.structure && !drawn)
+        progress.message(fmt::format("strategy {} has no structure to draw", job.search.strategy));
     return totals;
 }
 

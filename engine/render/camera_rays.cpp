@@ -36,6 +36,15 @@ glm::dvec3 direction(const CameraRays& camera, const glm::dvec2& place)
     return glm::normalize(camera.corner + place.x * camera.next_column + place.y * camera.next_row);
 }
 
+glm::dvec3 project(const CameraRays& camera, const glm::dvec3& point)
+{
+    const glm::dvec3 from_eye = point - camera.eye;
+    const double depth = glm::dot(from_eye, camera.forward);
+    const glm::dvec3 from_corner = from_eye - depth * camera.corner;
+    return {glm::dot(from_corner, camera.next_column) / glm::dot(camera.next_column, camera.next_column),
+            glm::dot(from_corner, camera.next_row) / glm::dot(camera.next_row, camera.next_row), depth};
+}
+
 std::vector<glm::dvec2> sample_places(int samples)
 {
     std::vector<glm::dvec2> places;

@@ -24,6 +24,10 @@ CameraRays camera_rays(const Pose& pose, int width, int height);
 /// place  in pixels from the upper left corner, y down: the centre of pixel (i, j) is (i + 1/2, j + 1/2)
 glm::dvec3 direction(const CameraRays& camera, const glm::dvec2& place);
 
+/// Where a point is in the picture, homogeneous: (x * depth, y * depth, depth), with (x, y) a place as direction() takes it
+/// and depth along `forward`, which is negative behind the eye. Straight lines stay straight.
+glm::dvec3 project(const CameraRays& camera, const glm::dvec3& point);
+
 /// Where in a pixel its samples lie, in [0, 1)^2: its centre for one, the centres of k x k equal cells for k * k,
 /// otherwise the start of the R2 sequence.
 /// source  M. Roberts, "The Unreasonable Effectiveness of Quasirandom Sequences", 2018

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "engine/grid/build.h"
+#include "engine/grid/outline.h"
 #include "engine/grid/search.h"
 
 namespace firstray {
@@ -26,8 +27,15 @@ public:
     void closest(RayTile<Real>& rays) const override { search_closest(target(), rays); }
     void occluded(RayTile<Real>& rays) const override { search_any(target(), rays); }
     StructureReport report() const override;
+    std::vector<StructureBox> outline() const override
+    {
+        std::vector<StructureBox> boxes;
+        append_outline(structure_, Transform{}, {.name = "grid", .primitives = primitives()}, boxes);
+        return boxes;
+    }
 
 private:
+    std::uint64_t primitives() const { return geometry_.triangles().size() + geometry_.quadrics().size(); }
     SearchTarget<Real> target() const { return {&structure_, &geometry_, options_.precision}; }
 
     StrategyOptions options_;
@@ -45,7 +53,7 @@ StructureReport GridStrategy<Real>::report() const
     report.voxels = structure_.cells.size();
     report.filled_voxels = structure_.lists.size() + report.subgrids;
     report.references = structure_.references;
-    report.primitives = geometry_.triangles().size() + geometry_.quadrics().size();
+    report.primitives = primitives();
     report.bytes = structure_.bytes() + geometry_.bytes();
     report.peak_bytes = peak_bytes_;
     report.depth = structure_.depth;

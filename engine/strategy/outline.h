@@ -18,13 +18,13 @@ struct StructureBox {
         subgrid     ///< inside a voxel of the box before it that is one level up
     };
     Kind kind = Kind::grid;
-    std::string name;         ///< the transform's, or what the box is, e.g. "scenery"
-    int level = 0;            ///< 0: outermost; what is inside stands behind it, one level deeper
-    Transform root_from_box;  ///< maps the unit cube [0, 1]^3 onto the box
-    glm::ivec3 dims{0};       ///< cells per axis of the grid that fills the box; 0: no grid, a list
-    std::uint64_t primitives = 0;             ///< in it, each once
-    std::uint64_t references = 0;             ///< listings of them in its voxels, subgrids included
-    std::vector<std::uint32_t> filled_cells;  ///< voxels that are not empty: x + dims.x * (y + dims.y * z), ascending
+    std::string name{};                         ///< the transform's, or what the box is, e.g. "scenery"
+    int level = 0;                              ///< 0: outermost; what is inside stands behind it, one level deeper
+    Transform root_from_box{};                  ///< maps the unit cube [0, 1]^3 onto the box
+    glm::ivec3 dims{0};                         ///< cells per axis of the grid that fills the box; 0: no grid, a list
+    std::uint64_t primitives = 0;               ///< in it, each once
+    std::uint64_t references = 0;               ///< listings of them in its voxels, subgrids included
+    std::vector<std::uint32_t> filled_cells{};  ///< voxels that are not empty: x + dims.x * (y + dims.y * z), ascending
 
     /// Lengths of the box's edges, root units.
     glm::dvec3 size() const

@@ -1,0 +1,166 @@
+#include "engine/render/draw_structure.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "engine/render/line_layer.h"
+
+namespace firstray {
+namespace {
+
+/// Lines of a picture this high or lower are as thin as can be; those of higher ones are wider in proportion.
+constexpr double thin_height = 600.0;
+constexpr double box_width = 1.6, cell_width = 1.0;
+constexpr float cell_strength = 0.6f;
+
+/// A picture as a background for lines: halfway to grey, and darker, bright places more than dark ones.
+void subdue(std::vector<glm::vec3>& picture)
+{
+    constexpr float colourfulness = 0.5f, knee = 0.5f;  // a luminance of 1 becomes 1/3, one near 0 stays
+    const glm::vec3 weights(0.2126f, 0.7152f, 0.0722f);
+    for (glm::vec3& colour : picture) {
+        const float luminance = glm::dot(colour, weights);
+        colour = knee / (knee + luminance) * glm::mix(glm::vec3(luminance), colour, colourfulness);
+    }
+}
+
+/// An edge between two corners of cells, as a number that sorts edges of one line one behind the other: the axis, the
+/// line's place on the other two axes, and the place along it.
+using EdgeKey = std::uint64_t;
+constexpr int key_bits = 20;  // a place; more than any grid has
+constexpr EdgeKey place_mask = (EdgeKey{1} << key_bits) - 1;
+
+EdgeKey edge_key(int axis, const glm::ivec3& corner)
+{
+    const auto place = [&](int a) { return static_cast<EdgeKey>(corner[a % 3]); };
+    return static_cast<EdgeKey>(axis) << (3 * key_bits) | place(axis + 2) << (2 * key_bits) |
+           place(axis + 1) << key_bits | place(axis);
+}
+
+/// The edges of cells, each once though neighbours share it, in order.
+std::vector<EdgeKey> cell_edges(const glm::ivec3& dims, std::span<const std::uint32_t> cells)
+{
+    std::vector<EdgeKey> edges;
+    edges.reserve(12 * cells.size());
+    for (const std::uint32_t cell : cells) {
+        const auto index = static_cast<int>(cell);
+        const glm::ivec3 corner(index % dims.x, index / dims.x % dims.y, index / dims.x / dims.y);
+        for (int axis = 0; axis < 3; ++axis)
+            for (int side = 0; side < 4; ++side) {
+                glm::ivec3 start = corner;
+                start[(axis + 1) % 3] += side & 1;
+                start[(axis + 2) % 3] += side >> 1;
+                edges.push_back(edge_key(axis, start));
+            }
+    }
+    std::sort(edges.begin(), edges.end());
+    edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+    return edges;
+}
+
+class StructureDrawing {
+public:
+    StructureDrawing(const Frame& frame, const CameraRays& camera)
+        : camera_(camera), layer_(frame, camera), width_scale_(std::max(frame.height / thin_height, 1.0))
+    {
+    }
+
+    void draw(const StructureBox& box)
+    {
+        const glm::vec3 colour = level_colour(box.level);
+        Pen pen{.colour = colour, .width = box_width * width_scale_};
+        if (box.kind == StructureBox::Kind::subgrid) {
+            const glm::dvec3 size = box.size();
+            pen.spacing = std::max({size.x, size.y, size.z});
+        }
+        draw_edges(box.root_from_box, pen);
+        if (glm::all(glm::greaterThan(box.dims, glm::ivec3(0))))
+            draw_cells(box, box.filled_cells,
+                       {.colour = colour, .strength = cell_strength, .width = cell_width * width_scale_});
+    }
+
+    void cover(std::vector<glm::vec3>& picture) const { layer_.cover(picture); }
+
+private:
+    void draw_edges(const Transform& root_from_box, const Pen& pen)
+    {
+        for (int axis = 0; axis < 3; ++axis)
+            for (int side = 0; side < 4; ++side) {
+                glm::dvec3 start(0.0);
+                start[(axis + 1) % 3] = side & 1;
+                start[(axis + 2) % 3] = side >> 1;
+                glm::dvec3 end = start;
+                end[axis] = 1.0;
+                layer_.draw(root_from_box.point(start), root_from_box.point(end), pen);
+            }
+    }
+
+    /// Draws the edges of some cells of a box; edges in a row are one line.
+    void draw_cells(const StructureBox& box, std::span<const std::uint32_t> cells, Pen pen)
+    {
+        const glm::dvec3 cell = box.size() / glm::dvec3(box.dims);
+        if (is_too_fine(box, std::max({cell.x, cell.y, cell.z}))) return;
+        const std::vector<EdgeKey> edges = cell_edges(box.dims, cells);
+        for (std::size_t i = 0; i < edges.size();) {
+            std::size_t end = i + 1;
+            while (end < edges.size() && edges[end] == edges[end - 1] + 1) ++end;
+            const int axis = static_cast<int>(edges[i] >> (3 * key_bits)), b = (axis + 1) % 3, c = (axis + 2) % 3;
+            glm::dvec3 from(0.0);
+            from[axis] = static_cast<double>(edges[i] & place_mask);
+            from[b] = static_cast<double>(edges[i] >> key_bits & place_mask);
+            from[c] = static_cast<double>(edges[i] >> (2 * key_bits) & place_mask);
+            glm::dvec3 to = from;
+            to[axis] += static_cast<double>(end - i);
+            pen.spacing = std::max(cell[b], cell[c]);
+            const glm::dvec3 dims(box.dims);
+            layer_.draw(box.root_from_box.point(from / dims), box.root_from_box.point(to / dims), pen);
+            i = end;
+        }
+    }
+
+    /// Whether lines so far apart would be too close in the picture wherever they are in a box.
+    bool is_too_fine(const StructureBox& box, double spacing) const
+    {
+        double nearest = std::numeric_limits<double>::infinity();
+        for (int corner = 0; corner < 8; ++corner) {
+            const glm::dvec3 p(corner & 1, corner >> 1 & 1, corner >> 2);
+            nearest = std::min(nearest, project(camera_, box.root_from_box.point(p)).z);
+        }
+        return spacing <= faded_spacing * std::max(nearest, camera_.hither) * glm::length(camera_.next_column);
+    }
+
+    const CameraRays& camera_;
+    LineLayer layer_;
+    double width_scale_;
+};
+
+}  // namespace
+
+Frame draw_structure(const Frame& frame, const CameraRays& camera, std::span<const StructureBox> outline)
+{
+    StructureDrawing drawing(frame, camera);
+    for (const StructureBox& box : outline) drawing.draw(box);
+    Frame drawn = frame;
+    subdue(drawn.colour);
+    drawing.cover(drawn.colour);
+    return drawn;
+}
+
+glm::vec3 level_colour(int level)
+{
+    static constexpr std::array<std::array<int, 3>, 7> palette = {{{86, 180, 233},   // sky blue
+                                                                   {230, 159, 0},    // orange
+                                                                   {204, 121, 167},  // reddish purple
+                                                                   {240, 228, 66},   // yellow
+                                                                   {0, 158, 115},    // bluish green
+                                                                   {213, 94, 0},     // vermillion
+                                                                   {0, 114, 178}}};  // blue
+    const auto& rgb = palette[static_cast<std::size_t>(std::max(level, 0)) % palette.size()];
+    return glm::vec3(rgb[0], rgb[1], rgb[2]) / 255.0f;
+}
+
+}  // namespace firstray
