@@ -142,7 +142,8 @@ private:
     }
     void sort()
     {
-        std::stable_sort(corners_.begin(), corners_.end(), [](const Corner& a, const Corner& b) { return a.cost < b.cost; });
+        std::stable_sort(corners_.begin(), corners_.end(),
+                         [](const Corner& a, const Corner& b) { return a.cost < b.cost; });
     }
 
     const PointSet& points_;
@@ -166,7 +167,8 @@ std::vector<Frame> triangle_frames(const PointSet& points)
     const ExtremePair tips = extreme_pair(points, normal);
     const glm::dvec3 corners[5] = {line.from, line.to, third, points[tips.least], points[tips.most]};
     std::vector<Frame> frames;
-    for (const auto& [a, b, c] : {std::array{0, 1, 2}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}, {0, 1, 4}, {1, 2, 4}, {2, 0, 4}})
+    for (const auto& [a, b, c] :
+         {std::array{0, 1, 2}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}, {0, 1, 4}, {1, 2, 4}, {2, 0, 4}})
         for (const auto& [from, to, other] : {std::array{a, b, c}, {b, c, a}, {c, a, b}})
             frames.push_back(
                 frame_along(points, axes_along(corners[to] - corners[from], corners[other] - corners[from])));
@@ -190,7 +192,8 @@ std::vector<Frame> sweep(const PointSet& points, const Frame& start, const glm::
     grid.reserve(n * n * n);
     for (int i = 0; i < n * n * n; ++i) {
         const glm::dvec3 step(i % n, i / n % n, i / (n * n));
-        grid.push_back(frame_along(points, turned(start.axes, range * ((2.0 * step + 1.0) / static_cast<double>(n) - 1.0))));
+        grid.push_back(
+            frame_along(points, turned(start.axes, range * ((2.0 * step + 1.0) / static_cast<double>(n) - 1.0))));
     }
     std::vector<Frame> lowest;
     for (int i = 0; i < n * n * n; ++i) {

@@ -19,8 +19,8 @@ Frame frame_along(const PointSet& points, const glm::dmat3& axes);
 /// Frames along the edges and normals of large triangles between points. Compares all pairs: for small sets.
 std::vector<Frame> triangle_frames(const PointSet& points);
 
-/// How far to turn about each axis of a box of this size (tangents of half the angles) to pass by every frame that may be
-/// smaller: thin boxes are turned little where that would thicken them much, cubes by up to 45 degrees.
+/// How far to turn about each axis of a box of this size (tangents of half the angles) to pass by every frame that may
+/// be smaller: thin boxes are turned little where that would thicken them much, cubes by up to 45 degrees.
 glm::dvec3 turn_range(const glm::dvec3& size);
 
 /// Frames turned in a grid of steps within `range` about `start`: those that are no worse than their neighbours, best
@@ -34,8 +34,8 @@ struct Descent {
     double precision = 0.0;  ///< ends when its frames' costs differ by less, relatively
 };
 
-/// Goes downhill from a frame (Nelder and Mead's simplex: the cost has kinks wherever a side is flush with an edge, and the
-/// best frames lie in them). returns  a frame that is no worse
+/// Goes downhill from a frame (Nelder and Mead's simplex: the cost has kinks wherever a side is flush with an edge, and
+/// the best frames lie in them). returns  a frame that is no worse
 Frame descend(const PointSet& points, const Frame& start, const Descent& how);
 
 }  // namespace firstray::obb

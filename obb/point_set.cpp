@@ -9,10 +9,10 @@
 namespace firstray::obb {
 namespace {
 
-constexpr std::size_t few_points = 32;        ///< not worth choosing from
-constexpr std::size_t many_points = 4096;     ///< more than there are cones below
-constexpr int cones_per_side = 24;            ///< of a cube around the points
-constexpr double least_thickness = 1e-9;      ///< relative to the longest side; what is thinner counts as flat
+constexpr std::size_t few_points = 32;     ///< not worth choosing from
+constexpr std::size_t many_points = 4096;  ///< more than there are cones below
+constexpr int cones_per_side = 24;         ///< of a cube around the points
+constexpr double least_thickness = 1e-9;   ///< relative to the longest side; what is thinner counts as flat
 
 /// The linear map into the space where the box along `axes` is a cube of about unit size.
 glm::dmat3 cube_from_world(const glm::dmat3& axes, const DAabb& box)

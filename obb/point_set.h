@@ -33,8 +33,8 @@ ExtremePair extreme_pair(const PointSet& points, const glm::dvec3& direction);
 /// thin sets then keep as many points across as along. At most 2 * directions points; all when there are few.
 PointSet extreme_points(const PointSet& points, const glm::dmat3& axes, int directions);
 
-/// Leaves out of a large set most points that others stand before, seen from the middle of its box along `axes`: keeps the
-/// farthest of every small cone. Small sets come back whole.
+/// Leaves out of a large set most points that others stand before, seen from the middle of its box along `axes`: keeps
+/// the farthest of every small cone. Small sets come back whole.
 PointSet outer_points(const PointSet& points, const glm::dmat3& axes);
 
 }  // namespace firstray::obb

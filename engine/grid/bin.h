@@ -15,6 +15,7 @@ struct GridEntries {
     RawVector<Aabb> boxes;                     ///< of all entries
     RawVector<RootTriangle<float>> triangles;  ///< of the first entries; the others are quadrics
     RawVector<std::uint32_t> ids;              ///< of all entries: PrimitiveId; of triangles with transmitting_bit
+    Aabb room;                                 ///< the top grid covers at least this
     float blur = 0.0f;  ///< how far the primitives that are tested may be from these, per coordinate
     float pad = 0.0f;   ///< boxes count as wider by it, on all sides; set by build_grid
 

@@ -195,10 +195,10 @@ GridOptions grid_options(const StrategyOptions& options)
 }
 
 template <typename Real>
-GridEntries make_entries(const RootGeometry<Real>& geometry, const Executor* executor)
+GridEntries make_entries(const RootGeometry<Real>& geometry, const PrimitiveList& primitives, const Executor* executor)
 {
     GridEntries entries;
-    const std::vector<PrimitiveId>& triangles = geometry.triangles();
+    const std::vector<PrimitiveId>& triangles = primitives.triangles;
     entries.triangles.resize(triangles.size());
     entries.ids.resize(triangles.size());
     entries.boxes.resize(triangles.size());
@@ -211,7 +211,7 @@ GridEntries make_entries(const RootGeometry<Real>& geometry, const Executor* exe
             entries.boxes[i] = bounds_of(t);
         }
     });
-    for (const PrimitiveId id : geometry.quadrics()) add_quadric(entries, geometry.quadric(id));
+    for (const PrimitiveId id : primitives.quadrics) add_quadric(entries, geometry.quadric(id));
     return entries;
 }
 
@@ -234,6 +234,7 @@ GridStructure build_grid(GridEntries entries, const GridOptions& options, const 
     GridStructure structure;
     Aabb bounds;
     for (const Aabb& box : entries.boxes) bounds.grow(box);
+    bounds.grow(entries.room);
     if (bounds.empty()) bounds = {glm::vec3(0.0f), glm::vec3(0.0f)};
     const glm::vec3 farthest = glm::max(glm::abs(bounds.lo), glm::abs(bounds.hi));
     structure.largest = std::max(std::max(farthest.x, farthest.y), farthest.z);
@@ -263,8 +264,8 @@ GridStructure build_grid(GridEntries entries, const GridOptions& options, const 
     return structure;
 }
 
-template GridEntries make_entries(const RootGeometry<float>&, const Executor*);
-template GridEntries make_entries(const RootGeometry<double>&, const Executor*);
+template GridEntries make_entries(const RootGeometry<float>&, const PrimitiveList&, const Executor*);
+template GridEntries make_entries(const RootGeometry<double>&, const PrimitiveList&, const Executor*);
 
 std::uint64_t GridStructure::bytes() const
 {

@@ -20,9 +20,9 @@ struct GridOptions {
 /// The shape that the user chose, defaults filled in.
 GridOptions grid_options(const StrategyOptions& options);
 
-/// The visible primitives of `geometry`, which is updated, in the root system.
+/// Primitives of groups that are carried, in the root system.
 template <typename Real>
-GridEntries make_entries(const RootGeometry<Real>& geometry, const Executor* executor);
+GridEntries make_entries(const RootGeometry<Real>& geometry, const PrimitiveList& primitives, const Executor* executor);
 
 /// Appends a triangle; all of them must come before the first quadric.
 void add_triangle(GridEntries& entries, const RootTriangle<float>& triangle, PrimitiveId id, bool transmits);

@@ -58,14 +58,14 @@ struct GridStructure {
     std::vector<VoxelList> lists;
     RawVector<TrianglePack> packs;
     RawVector<PackBoxes> boxes;
-    std::vector<PrimitiveId> quadrics;   ///< of voxels: their PrimitiveIds
-    VoxelList large;                      ///< the largest triangles, kept out of the cells: every ray tests them first
-    float largest = 0.0f;                 ///< largest coordinate in magnitude: all error bounds scale with it
-    float blur = 0.0f;  ///< how far the primitives that are tested may be from those listed here, per coordinate
-    float pad = 0.0f;                     ///< by how much registration and boxes are widened
-    std::uint32_t depth = 0;              ///< levels of grids
-    std::uint32_t largest_list = 0;       ///< primitives in the fullest voxel
-    std::uint64_t references = 0;         ///< listings of primitives in voxels
+    std::vector<PrimitiveId> quadrics;  ///< of voxels: their PrimitiveIds
+    VoxelList large;                    ///< the largest triangles, kept out of the cells: every ray tests them first
+    float largest = 0.0f;               ///< largest coordinate in magnitude: all error bounds scale with it
+    float blur = 0.0f;        ///< how far the primitives that are tested may be from those listed here, per coordinate
+    float pad = 0.0f;         ///< by how much registration and boxes are widened
+    std::uint32_t depth = 0;  ///< levels of grids
+    std::uint32_t largest_list = 0;  ///< primitives in the fullest voxel
+    std::uint64_t references = 0;    ///< listings of primitives in voxels
 
     std::uint64_t bytes() const;
 };

@@ -9,8 +9,9 @@ namespace {
 /// Lists the grids of a structure, from the top down; each one's contents are counted on the way back up.
 class OutlineMaker {
 public:
-    OutlineMaker(const GridStructure& structure, const Transform& root_from_structure, std::vector<StructureBox>& out)
-        : structure_(structure), root_from_structure_(root_from_structure), out_(out)
+    OutlineMaker(const GridStructure& structure, std::span<const CellWord> cells, const Transform& root_from_structure,
+                 std::vector<StructureBox>& out)
+        : structure_(structure), cells_(cells), root_from_structure_(root_from_structure), out_(out)
     {
     }
 
@@ -38,7 +39,7 @@ private:
         const int level = box.level;
         out_.push_back(std::move(box));
         for (std::uint32_t cell = 0; cell < grid.cells(); ++cell) {
-            const CellWord word = structure_.cells[grid.first_cell + cell];
+            const CellWord word = cells_[grid.first_cell + cell];
             if (word.is_empty()) continue;
             out_[position].filled_cells.push_back(cell);
             if (word.is_subgrid())
@@ -64,31 +65,31 @@ private:
 
     void list_primitives(const VoxelList& list)
     {
-        constexpr std::uint64_t is_quadric = std::uint64_t{1} << 32;  // they are numbered from 0, as triangles are
         const std::size_t before = listed_.size();
         for (std::uint32_t pack = list.first_pack; pack < list.first_pack + list.packs; ++pack)
             for (const std::uint32_t id : structure_.packs[pack].id)
                 if (id != no_primitive) listed_.push_back(id & ~transmitting_bit);
         for (std::uint32_t i = list.first_quadric; i < list.first_quadric + list.quadrics; ++i)
-            listed_.push_back(structure_.quadrics[i] | is_quadric);
+            listed_.push_back(structure_.quadrics[i]);
         references_ += listed_.size() - before;
     }
 
     const GridStructure& structure_;
+    std::span<const CellWord> cells_;
     const Transform& root_from_structure_;
     std::vector<StructureBox>& out_;
-    std::size_t first_ = out_.size();    ///< of `out_`: the top grid
-    std::vector<std::uint64_t> listed_;  ///< primitives met in the subgrids that are open; of those done, each once
-    std::size_t references_ = 0;         ///< met in subgrids so far
+    std::size_t first_ = out_.size();  ///< of `out_`: the top grid
+    std::vector<PrimitiveId> listed_;  ///< primitives met in the subgrids that are open; of those done, each once
+    std::size_t references_ = 0;       ///< met in subgrids so far
 };
 
 }  // namespace
 
-void append_outline(const GridStructure& structure, const Transform& root_from_structure, StructureBox heading,
-                    std::vector<StructureBox>& out)
+void append_outline(const GridStructure& structure, std::span<const CellWord> cells,
+                    const Transform& root_from_structure, StructureBox heading, std::vector<StructureBox>& out)
 {
     if (structure.grids.empty()) return;
-    OutlineMaker(structure, root_from_structure, out).append_top(std::move(heading));
+    OutlineMaker(structure, cells, root_from_structure, out).append_top(std::move(heading));
 }
 
 }  // namespace firstray

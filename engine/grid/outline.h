@@ -1,4 +1,5 @@
 #pragma once
+#include <span>
 #include <vector>
 
 #include "engine/grid/grid.h"
@@ -10,7 +11,8 @@ namespace firstray {
 /// grid.
 /// root_from_structure  maps the structure's coordinates to the root
 /// heading              what the top grid is: its kind, name, level and primitives are kept, the rest is filled in
-void append_outline(const GridStructure& structure, const Transform& root_from_structure, StructureBox heading,
-                    std::vector<StructureBox>& out);
+/// cells                the structure's, none of them special
+void append_outline(const GridStructure& structure, std::span<const CellWord> cells,
+                    const Transform& root_from_structure, StructureBox heading, std::vector<StructureBox>& out);
 
 }  // namespace firstray

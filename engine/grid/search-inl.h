@@ -215,6 +215,26 @@ struct Search {
     }
 };
 
+/// Everything is there: a cell's word says where.
+class EagerResolver {
+public:
+    explicit EagerResolver(const GridStructure& structure)
+        : cells_(structure.cells.data()), lists_(structure.lists.data()), grids_(structure.grids.data())
+    {
+    }
+    CellWord word(std::int32_t cell) const { return cells_[cell]; }
+    Voxel voxel(CellWord word, std::int32_t /*cell*/) const
+    {
+        if (word.is_subgrid()) return {nullptr, &grids_[word.index()]};
+        return {&lists_[word.index()], nullptr};
+    }
+
+private:
+    const CellWord* HWY_RESTRICT cells_;
+    const VoxelList* HWY_RESTRICT lists_;
+    const Grid* HWY_RESTRICT grids_;
+};
+
 /// The primitives of a structure in the root system, where hits are decided.
 template <typename Real>
 struct RootPrimitives {

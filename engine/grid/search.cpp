@@ -11,26 +11,6 @@ HWY_BEFORE_NAMESPACE();
 namespace firstray {
 namespace HWY_NAMESPACE {
 
-/// Everything is there: a cell's word says where.
-class EagerResolver {
-public:
-    explicit EagerResolver(const GridStructure& structure)
-        : cells_(structure.cells.data()), lists_(structure.lists.data()), grids_(structure.grids.data())
-    {
-    }
-    CellWord word(std::int32_t cell) const { return cells_[cell]; }
-    Voxel voxel(CellWord word, std::int32_t /*cell*/) const
-    {
-        if (word.is_subgrid()) return {nullptr, &grids_[word.index()]};
-        return {&lists_[word.index()], nullptr};
-    }
-
-private:
-    const CellWord* HWY_RESTRICT cells_;
-    const VoxelList* HWY_RESTRICT lists_;
-    const Grid* HWY_RESTRICT grids_;
-};
-
 template <typename Real>
 struct GridSearcher {
     const SearchTarget<Real>& target;

@@ -20,8 +20,8 @@ public:
         structure_ = {};  // given back first: the old and the new one are never held together
         geometry_.update(pose, options_.executor);
         std::uint64_t built_bytes = 0;
-        structure_ = build_grid(make_entries(geometry_, options_.executor), grid_options(options_), options_.executor,
-                                built_bytes);
+        structure_ = build_grid(make_entries(geometry_, geometry_.visible(), options_.executor),
+                                grid_options(options_), options_.executor, built_bytes);
         peak_bytes_ = std::max(peak_bytes_, built_bytes + geometry_.bytes());
     }
     void closest(RayTile<Real>& rays) const override { search_closest(target(), rays); }
@@ -30,12 +30,12 @@ public:
     std::vector<StructureBox> outline() const override
     {
         std::vector<StructureBox> boxes;
-        append_outline(structure_, Transform{}, {.name = "grid", .primitives = primitives()}, boxes);
+        append_outline(structure_, structure_.cells, Transform{}, {.name = "grid", .primitives = primitives()}, boxes);
         return boxes;
     }
 
 private:
-    std::uint64_t primitives() const { return geometry_.triangles().size() + geometry_.quadrics().size(); }
+    std::uint64_t primitives() const { return geometry_.visible().size(); }
     SearchTarget<Real> target() const { return {&structure_, &geometry_, options_.precision}; }
 
     StrategyOptions options_;
@@ -56,6 +56,7 @@ StructureReport GridStrategy<Real>::report() const
     report.primitives = primitives();
     report.bytes = structure_.bytes() + geometry_.bytes();
     report.peak_bytes = peak_bytes_;
+    report.regridded = report.primitives;
     report.depth = structure_.depth;
     report.largest_list = structure_.largest_list;
     return report;

@@ -17,7 +17,7 @@ public:
     StructureReport report() const override
     {
         StructureReport report;
-        report.primitives = report.references = geometry_.triangles().size() + geometry_.quadrics().size();
+        report.primitives = report.references = geometry_.visible().size();
         report.largest_list = report.primitives;
         report.bytes = report.peak_bytes = geometry_.bytes();
         return report;

@@ -81,12 +81,12 @@ void search_tile(const RootGeometry<Real>& geometry, Precision precision, bool a
                                   [](const Hit<Real>& hit) { return hit.id != no_primitive; });
     };
     std::uint32_t tests = 0;
-    for (const PrimitiveId id : geometry.triangles()) {
+    for (const PrimitiveId id : geometry.visible().triangles) {
         if (!admits(tile.mask, geometry.transmits(id))) continue;
         if (++tests % 4096 == 0 && is_done()) break;
         test_triangle(geometry.triangle(id), id, precision, *search);
     }
-    for (const PrimitiveId id : geometry.quadrics()) {
+    for (const PrimitiveId id : geometry.visible().quadrics) {
         const RootQuadric& quadric = geometry.quadric(id);
         if (!admits(tile.mask, quadric.transmits)) continue;
         ++tests;

@@ -106,29 +106,33 @@ RootQuadric RootGeometry<Real>::quadric_of(std::uint32_t group, PrimitiveId id) 
 template <typename Real>
 void RootGeometry<Real>::list_visible(const Pose& pose)
 {
-    bool same_groups = !triangles_.empty() || !quadrics_.empty();
+    bool same_groups = visible_.size() > 0;
     for (std::size_t g = 0; g < scene_.groups.size(); ++g) {
         const std::uint8_t visible = pose.is_visible(scene_.groups[g]);
         same_groups = same_groups && visible == was_visible_[g];
         was_visible_[g] = visible;
     }
     if (same_groups) return;
-    triangles_.clear();
-    quadrics_.clear();
-    for (const Group& group : scene_.groups) {
-        if (!pose.is_visible(group)) continue;
-        for (PrimitiveId id = group.first; id < group.first + group.triangles; ++id)
-            if (has_finite_corners(triangle(id))) triangles_.push_back(id);
-        for (PrimitiveId id = group.first + group.triangles; id < group.first + group.primitives(); ++id)
-            quadrics_.push_back(id);
-    }
+    visible_ = {};
+    for (std::uint32_t g = 0; g < scene_.groups.size(); ++g)
+        if (was_visible_[g]) list(g, visible_);
+}
+
+template <typename Real>
+void RootGeometry<Real>::list(std::uint32_t index, PrimitiveList& list) const
+{
+    const Group& group = scene_.groups[index];
+    for (PrimitiveId id = group.first; id < group.first + group.triangles; ++id)
+        if (has_finite_corners(triangle(id))) list.triangles.push_back(id);
+    for (PrimitiveId id = group.first + group.triangles; id < group.first + group.primitives(); ++id)
+        list.quadrics.push_back(id);
 }
 
 template <typename Real>
 std::uint64_t RootGeometry<Real>::bytes() const
 {
     return vertices_.capacity() * sizeof(Vec) + corners_.capacity() * sizeof(glm::uvec3) + transmits_.capacity() +
-           (triangles_.capacity() + quadrics_.capacity()) * sizeof(PrimitiveId) +
+           (visible_.triangles.capacity() + visible_.quadrics.capacity()) * sizeof(PrimitiveId) +
            placed_.capacity() * sizeof(RootQuadric);
 }
 

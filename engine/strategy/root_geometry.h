@@ -11,6 +11,12 @@
 
 namespace firstray {
 
+/// Ids, each list ascending.
+struct PrimitiveList {
+    std::vector<PrimitiveId> triangles, quadrics;
+    std::size_t size() const { return triangles.size() + quadrics.size(); }
+};
+
 /// All visible primitives of a pose, carried into the root system: what is tested, whatever structure chooses it.
 /// Groups that cannot move are carried once; the others at every update, or when they are first touched after it.
 template <typename Real>
@@ -33,9 +39,11 @@ public:
         return carried_[group].load(std::memory_order_acquire) == Carried::yes || carry_if_first(group);
     }
 
-    /// Ids of visible triangles and quadrics, ascending; valid until the next update. Only after update().
-    const std::vector<PrimitiveId>& triangles() const { return triangles_; }
-    const std::vector<PrimitiveId>& quadrics() const { return quadrics_; }
+    /// What is visible; valid until the next update. Only after update().
+    const PrimitiveList& visible() const { return visible_; }
+
+    /// Appends what there is to hit in a group that is carried.
+    void list(std::uint32_t group, PrimitiveList& list) const;
 
     /// Primitives of groups that are carried.
     RootTriangle<Real> triangle(PrimitiveId id) const
@@ -73,7 +81,7 @@ private:
     std::vector<std::uint8_t> transmits_;                ///< by PrimitiveId
     mutable std::vector<std::atomic<Carried>> carried_;  ///< by group
     std::vector<std::uint8_t> was_visible_;              ///< by group, at the last update
-    std::vector<PrimitiveId> triangles_, quadrics_;
+    PrimitiveList visible_;
 };
 
 }  // namespace firstray

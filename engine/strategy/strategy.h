@@ -2,6 +2,8 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "engine/core/executor.h"
 #include "engine/core/precision.h"
@@ -23,7 +25,8 @@ struct StructureReport {
     std::uint64_t peak_bytes = 0;  ///< most held at once since the strategy was made, building included
     std::uint64_t depth = 0;       ///< levels of grids, 1 without subgrids
     std::uint64_t largest_list = 0;
-    double lazy_build_ms = 0.0;  ///< spent building while rays flew, summed over threads, since update
+    std::uint64_t regridded = 0;  ///< primitives that the last update put into grids
+    double lazy_build_ms = 0.0;   ///< spent building while rays flew, summed over threads, since update
 };
 
 /// A way to find hits in an animated scene. update() runs alone; between two updates any number of threads may search.
@@ -43,16 +46,19 @@ public:
     /// Finds out whether each ray meets anything: primitive is set to one that it meets, or no_primitive.
     virtual void occluded(RayTile<Real>& rays) const = 0;
     virtual StructureReport report() const = 0;
-    /// The boxes and grids as they stand since the last update, outer before inner; none where there is nothing to show.
+    /// The boxes and grids as they stand since the last update, outer before inner; none where there is nothing to
+    /// show.
     virtual std::vector<StructureBox> outline() const { return {}; }
 };
 
 /// What the user chooses about structures; each field has a flag of the command.
 struct StrategyOptions {
     Precision precision = Precision::robust;
-    float grid_density = 0.0f;           ///< cells of the top grid per primitive, > 0; 0 means the default
-    int max_list = 0;                    ///< primitives in a voxel above which it gets a subgrid, >= 1; 0: the default
-    int grid_depth = 3;                  ///< levels of grids, >= 1; 1 means no subgrids
+    float grid_density = 0.0f;  ///< cells of the top grid per primitive, > 0; 0 means the default
+    int max_list = 0;           ///< primitives in a voxel above which it gets a subgrid, >= 1; 0: the default
+    int grid_depth = 3;         ///< levels of grids, >= 1; 1 means no subgrids
+    std::vector<std::pair<std::string, std::string>> own{};  ///< what one strategy alone knows: flag, e.g. "obb-top",
+                                                             ///< and word
     const Executor* executor = nullptr;  ///< runs updates; must outlive the strategy; null: one thread
 };
 

@@ -1,0 +1,138 @@
+#include "obb/box.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "obb/smallest_obb.h"
+
+namespace firstray::obb {
+namespace {
+
+/// Up to this many primitives a list of packs with boxes is as quick to search as a grid, or quicker.
+constexpr std::size_t handful = 64;
+
+template <typename Visit>
+void for_each_primitive(const Scene& scene, const BoxPlan& plan, Visit&& visit)
+{
+    const Group& group = scene.groups[plan.group];
+    for (const PrimitiveRange& range : plan.primitives)
+        for (PrimitiveId id = range.first; id < range.first + range.count; ++id)
+            visit(id, id - group.first < group.triangles);
+}
+
+/// The eight corners of a box around each primitive that is not a triangle, and the vertices of those that are.
+std::vector<glm::dvec3> points_of(const Scene& scene, const BoxPlan& plan, const glm::dmat3& root_from_node)
+{
+    const Group& group = scene.groups[plan.group];
+    std::vector<glm::dvec3> points;
+    for_each_primitive(scene, plan, [&](PrimitiveId id, bool is_triangle) {
+        if (is_triangle) {
+            for (int k = 0; k < 3; ++k)
+                points.push_back(root_from_node *
+                                 scene.positions[scene.triangles[id - group.first + group.first_triangle].vertex[k]]);
+            return;
+        }
+        const Quadric& shape = scene.quadrics[id - group.first - group.triangles + group.first_quadric];
+        const DAabb box = place_quadric(shape, {root_from_node, glm::dvec3(0.0)}, id, false).bounds;
+        for (int corner = 0; corner < 8; ++corner)
+            points.emplace_back(corner & 1 ? box.hi.x : box.lo.x, corner & 2 ? box.hi.y : box.lo.y,
+                                corner & 4 ? box.hi.z : box.lo.z);
+    });
+    std::erase_if(points, [](const glm::dvec3& p) { return !std::isfinite(p.x + p.y + p.z); });
+    return points;
+}
+
+bool is_finite(const RootTriangle<float>& t)
+{
+    return std::isfinite(t.edge) && std::isfinite(t.v[0].x + t.v[0].y + t.v[0].z);
+}
+
+}  // namespace
+
+double size_of(const glm::dmat3& linear)
+{
+    double size = 0.0;
+    for (int row = 0; row < 3; ++row)
+        size = std::max(size, std::abs(linear[0][row]) + std::abs(linear[1][row]) + std::abs(linear[2][row]));
+    return size;
+}
+
+float blur_of(const glm::dmat3& local_from_root, double largest, double epsilon)
+{
+    return static_cast<float>(size_of(local_from_root) * largest * epsilon);
+}
+
+GridOptions BoxMaker::shape_of(std::size_t primitives) const
+{
+    if (inside == Inside::grid || (inside == Inside::automatic && primitives > handful)) return grid;
+    GridOptions list = grid;
+    list.density = 1e-30f;
+    list.depth = 1;
+    return list;
+}
+
+Box BoxMaker::make(const BoxPlan& plan, const Transform& root_from_node, double largest,
+                   std::uint64_t& peak_bytes) const
+{
+    const Group& group = scene.groups[plan.group];
+    const std::vector<glm::dvec3> points = points_of(scene, plan, root_from_node.linear);
+    const Obb obb = smallest_obb(points);
+    const glm::dmat3 local_from_turned = glm::transpose(obb.axes);
+    Box box;
+    box.local_from_node = {local_from_turned * root_from_node.linear, -(local_from_turned * obb.centre)};
+    box.node_from_local = inverse(box.local_from_node);
+    box.made_size = size_of(root_from_node.linear);
+
+    GridEntries entries;
+    // Twice what is needed now, so that a group that moves farther out is not made anew at once.
+    entries.blur = 2.0f * blur_of(local_from_turned, largest, epsilon);
+    for_each_primitive(scene, plan, [&](PrimitiveId id, bool is_triangle) {
+        const bool transmits = scene.material(id).transmits();
+        if (!is_triangle) {
+            const Quadric& shape = scene.quadrics[id - group.first - group.triangles + group.first_quadric];
+            box.quadrics.push_back(place_quadric(shape, box.local_from_node, id, transmits));
+            box.bounds.grow(box.quadrics.back().bounds);
+            add_quadric(entries, box.quadrics.back());
+            return;
+        }
+        const glm::uvec3& vertex = scene.triangles[id - group.first + group.first_triangle].vertex;
+        RootTriangle<float> t;
+        for (int k = 0; k < 3; ++k) t.v[k] = glm::vec3(box.local_from_node.point(scene.positions[vertex[k]]));
+        t.edge = longest_edge<float>(t.v[0], t.v[1], t.v[2]);
+        if (!is_finite(t)) return;
+        for (const glm::vec3& corner : t.v) box.bounds.grow(glm::dvec3(corner));
+        add_triangle(entries, t, id, transmits);
+    });
+    if (!keep_quadrics) box.quadrics = {};
+    const GridOptions shape = shape_of(entries.count());
+    box.inside = build_grid(std::move(entries), shape, nullptr, peak_bytes);
+    return box;
+}
+
+template <typename Real>
+Box BoxMaker::make_deformed(const BoxPlan& plan, const RootGeometry<Real>& geometry, const Transform& root_from_node,
+                            std::uint64_t& peak_bytes) const
+{
+    Box box;
+    box.local_from_node = root_from_node;
+    box.node_from_local = inverse(root_from_node);
+    GridEntries entries;
+    for_each_primitive(scene, plan, [&](PrimitiveId id, bool) {
+        const RootTriangle<Real> carried = geometry.triangle(id);
+        RootTriangle<float> t{{glm::vec3(carried.v[0]), glm::vec3(carried.v[1]), glm::vec3(carried.v[2])}, 0.0f};
+        t.edge = longest_edge<float>(t.v[0], t.v[1], t.v[2]);
+        if (!is_finite(t)) return;
+        for (const glm::vec3& corner : t.v) box.bounds.grow(glm::dvec3(corner));
+        add_triangle(entries, t, id, geometry.transmits(id));
+    });
+    const GridOptions shape = shape_of(entries.count());
+    box.inside = build_grid(std::move(entries), shape, nullptr, peak_bytes);
+    return box;
+}
+
+template Box BoxMaker::make_deformed(const BoxPlan&, const RootGeometry<float>&, const Transform&,
+                                     std::uint64_t&) const;
+template Box BoxMaker::make_deformed(const BoxPlan&, const RootGeometry<double>&, const Transform&,
+                                     std::uint64_t&) const;
+
+}  // namespace firstray::obb
