@@ -1,5 +1,6 @@
 #include "bench/strategies.h"
 
+#include <algorithm>
 #include <stdexcept>
 
 #include "bench/peers/embree.h"
@@ -11,30 +12,31 @@ namespace firstray {
 
 namespace {
 
-/// The value that a word stands for, in the order of `words`.
-template <typename Enum, std::size_t size>
-void choose(Enum& target, const std::pair<std::string, std::string>& option, std::string_view flag,
-            const std::string_view (&words)[size])
+using OwnWords = std::vector<std::pair<std::string, std::string>>;
+
+constexpr std::string_view obb_groups[] = {"dynamic", "all"}, obb_top[] = {"grid", "list"},
+                           obb_hits[] = {"root", "local"}, obb_inside[] = {"auto", "grid", "list"};
+
+/// Position of the word that was chosen for a flag; 0 where none was.
+/// throws  std::invalid_argument for a word that is not one of the choice's
+std::size_t chosen(const OwnWords& own, std::string_view flag)
 {
-    if (option.first != flag) return;
-    for (std::size_t i = 0; i < size; ++i)
-        if (option.second == words[i]) {
-            target = static_cast<Enum>(i);
-            return;
+    for (const auto& [name, word] : own) {
+        if (name != flag) continue;
+        for (const OwnChoice& choice : own_choices()) {
+            const auto found = std::find(choice.words.begin(), choice.words.end(), word);
+            if (choice.flag == flag && found != choice.words.end())
+                return static_cast<std::size_t>(found - choice.words.begin());
         }
-    throw std::invalid_argument("--" + option.first + ": no such choice: " + option.second);
+        throw std::invalid_argument("--" + name + ": no such choice: " + word);
+    }
+    return 0;
 }
 
-obb::Options obb_options(const std::vector<std::pair<std::string, std::string>>& words)
+obb::Options obb_options(const OwnWords& own)
 {
-    obb::Options options;
-    for (const auto& word : words) {
-        choose(options.groups, word, "obb-groups", {"dynamic", "all"});
-        choose(options.top, word, "obb-top", {"grid", "list"});
-        choose(options.hits, word, "obb-hits", {"root", "local"});
-        choose(options.inside, word, "obb-inside", {"auto", "grid", "list"});
-    }
-    return options;
+    return {static_cast<obb::Groups>(chosen(own, "obb-groups")), static_cast<obb::Top>(chosen(own, "obb-top")),
+            static_cast<obb::Hits>(chosen(own, "obb-hits")), static_cast<obb::Inside>(chosen(own, "obb-inside"))};
 }
 
 template <typename Real>
@@ -57,6 +59,18 @@ std::span<const StrategyEntry> strategies()
         {"embree-low", "Embree 3, the tree that is quickest to build", true, &peers::make_embree_low},
         {"embree-two-level", "Embree 3, a tree per group, moved as instances", true, &peers::make_embree_two_level},
 #endif
+    };
+    return table;
+}
+
+std::span<const OwnChoice> own_choices()
+{
+    static constexpr OwnChoice table[] = {
+        {"obb-groups", obb_groups,
+         "boxes for what dynamic transforms move, or for each static transform below them too"},
+        {"obb-top", obb_top, "boxes stand in the scenery's grid, or in a list that every ray goes through (the paper)"},
+        {"obb-hits", obb_hits, "hits in boxes are decided in the root system, or in the box's (the paper)"},
+        {"obb-inside", obb_inside, "what is in a box"},
     };
     return table;
 }

@@ -21,6 +21,16 @@ struct StrategyEntry {
 /// Every strategy that this build knows; the command, the tests and the benchmarks loop over this.
 std::span<const StrategyEntry> strategies();
 
+/// A choice that one strategy alone offers; StrategyOptions::own takes its flag and one of its words.
+struct OwnChoice {
+    std::string_view flag;                    ///< without dashes, e.g. "obb-top"
+    std::span<const std::string_view> words;  ///< the first is the default
+    std::string_view summary;                 ///< for --help
+};
+
+/// All choices of all strategies.
+std::span<const OwnChoice> own_choices();
+
 /// The entry of that name, or null.
 const StrategyEntry* find_strategy(std::string_view name);
 

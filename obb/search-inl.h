@@ -43,51 +43,42 @@ HWY_INLINE std::uint32_t oriented_boxes_met(const BoxPack& pack, const WalkRay& 
     return found;
 }
 
-/// The primitives of a box, tested where they stand in the root system.
+/// The primitives of a box, tested where they stand in the root system or in the box's own.
 template <typename Real>
-struct MovedPrimitives {
-    const RootGeometry<Real>& geometry;
-    std::uint32_t group;
-    const SearchRay<Real>& ray;
-    Precision precision;
-
-    HWY_INLINE TriangleHit<Real> triangle(const TrianglePack&, int, PrimitiveId id, Real t_last) const
-    {
-        return intersect_precisely(geometry.triangle_of(group, id), ray, precision, t_last);
-    }
-    Real quadric(PrimitiveId id, RayMask mask) const
-    {
-        return intersect_rounded(geometry.quadric_of(group, id), ray, mask);
-    }
-};
-
-/// The primitives of a box, tested in the box's own system.
-template <typename Real>
-struct LocalPrimitives {
-    const Scene& scene;
+struct BoxPrimitives {
+    const SearchTarget<Real>& target;
     const Box& box;
     std::uint32_t group;
-    SearchRay<Real> ray;
-    Precision precision;
+    const SearchRay<Real>& ray;  ///< in the system that decides
 
     HWY_INLINE TriangleHit<Real> triangle(const TrianglePack& pack, int lane, PrimitiveId id, Real t_last) const
     {
-        if constexpr (std::is_same_v<Real, float>) {
-            return intersect_precisely(pack.triangle(lane), ray, precision, t_last);
-        } else {
-            const Group& g = scene.groups[group];
-            const glm::uvec3& vertex = scene.triangles[id - g.first + g.first_triangle].vertex;
-            RootTriangle<double> t;
-            for (int k = 0; k < 3; ++k) t.v[k] = box.local_from_node.point(scene.positions[vertex[k]]);
-            t.edge = longest_edge<double>(t.v[0], t.v[1], t.v[2]);
-            return intersect_precisely(t, ray, precision, t_last);
-        }
+        const RootTriangle<Real> tested =
+            HWY_LIKELY(target.hits == Hits::root) ? target.geometry->triangle_of(group, id) : local(pack, lane, id);
+        return intersect_precisely(tested, ray, target.precision, t_last);
     }
+
     Real quadric(PrimitiveId id, RayMask mask) const
     {
+        if (target.hits == Hits::root) return intersect_rounded(target.geometry->quadric_of(group, id), ray, mask);
         const auto found = std::lower_bound(box.quadrics.begin(), box.quadrics.end(), id,
                                             [](const RootQuadric& q, PrimitiveId wanted) { return q.id < wanted; });
         return intersect_rounded(*found, ray, mask);
+    }
+
+private:
+    RootTriangle<Real> local(const TrianglePack& pack, int lane, PrimitiveId id) const
+    {
+        if constexpr (std::is_same_v<Real, float>) {
+            return pack.triangle(lane);
+        } else {
+            const Group& g = target.scene->groups[group];
+            const glm::uvec3& vertex = target.scene->triangles[id - g.first + g.first_triangle].vertex;
+            RootTriangle<double> t;
+            for (int k = 0; k < 3; ++k) t.v[k] = box.local_from_node.point(target.scene->positions[vertex[k]]);
+            t.edge = longest_edge<double>(t.v[0], t.v[1], t.v[2]);
+            return t;
+        }
     }
 };
 
@@ -130,12 +121,12 @@ public:
     }
 
     /// Returns whether the ray is done.
-    HWY_INLINE bool run()
+    bool run()
     {
         const bool loose = target_.precision == Precision::fast;
         if (!among_.begin(glm::dvec3(quest_.ray.origin), glm::dvec3(quest_.ray.direction), loose ? 1.0f : 0.0f))
             return false;
-        return among_.list(grid_.structure.large, 0.0f) || walk(grid_, 0.0f);
+        return among_.large() || walk(grid_, 0.0f);
     }
 
     // What the walk asks for.
@@ -157,7 +148,7 @@ private:
     }
 
     /// Goes through a boxed grid, which stands in the system of the walk.
-    HWY_INLINE bool walk(const BoxedGrid& grid, float t_begin)
+    HWY_NOINLINE bool walk(const BoxedGrid& grid, float t_begin)
     {
         const BoxedGrid* const around = std::exchange(current_, &grid);
         const bool is_list = grid.structure.cells.size() == 1 && grid.structure.lists.empty();
@@ -191,26 +182,24 @@ private:
     bool item(std::uint32_t number, float t_enter)
     {
         const Placed& placed = (*target_.placed)[number];
-        if (placed.supergrid) return walk(*placed.supergrid, t_enter);
+        if (placed.supergrid) return walk(*placed.supergrid, t_enter - among_.walk.t_pad);
         const glm::dvec3 o = placed.local_from_root.point(glm::dvec3(quest_.ray.origin)),
                          d = placed.local_from_root.vector(glm::dvec3(quest_.ray.direction));
-        if (HWY_LIKELY(target_.hits == Hits::root)) {
-            const MovedPrimitives<Real> primitives{*target_.geometry, placed.group, quest_.ray, target_.precision};
-            return box(*placed.box, primitives, o, d, placed.loose);
-        }
+        if (HWY_LIKELY(target_.hits == Hits::root)) return box(placed, quest_.ray, o, d, placed.loose);
         using Vec = typename SearchRay<Real>::Vec;
-        const SearchRay<Real> ray{Vec(o), Vec(d), quest_.ray.t_min, quest_.ray.t_max};
-        const LocalPrimitives<Real> primitives{*target_.scene, *placed.box, placed.group, ray, target_.precision};
-        return box(*placed.box, primitives, o, d, 1.0f);
+        return box(placed, {Vec(o), Vec(d), quest_.ray.t_min, quest_.ray.t_max}, o, d, 1.0f);
     }
 
-    template <class Primitives>
-    HWY_INLINE bool box(const Box& box, const Primitives& primitives, const glm::dvec3& o, const glm::dvec3& d,
-                        float loose)
+    /// ray   the one that is tested, in the system that decides
+    /// o, d  the ray in the box's system
+    HWY_NOINLINE bool box(const Placed& placed, const SearchRay<Real>& ray, const glm::dvec3& o, const glm::dvec3& d,
+                          float loose)
     {
-        Search<Quest, Primitives> search{quest_, primitives, box.inside};
+        const GridStructure& inside = placed.box->inside;
+        const BoxPrimitives<Real> primitives{target_, *placed.box, placed.group, ray};
+        Search<Quest, BoxPrimitives<Real>> search{quest_, primitives, inside};
         if (!search.begin(o, d, target_.precision == Precision::fast ? loose : 0.0f)) return false;
-        if (search.run(EagerResolver(box.inside))) return true;
+        if (search.run(EagerResolver(inside))) return true;
         among_.update_stop();
         return false;
     }

@@ -2,6 +2,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "engine/core/precision.h"
 #include "engine/core/ray_tile.h"
 #include "engine/strategy/root_geometry.h"
 #include "obb/box.h"

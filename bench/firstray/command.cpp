@@ -31,7 +31,7 @@ Exit codes: 0 done, 1 failed while rendering, 2 usage, 3 bad scene, 4 file troub
 /// Of an option given twice the last one counts: scripts put the options of their caller behind their own.
 /// value  stands for the option's value in --help
 template <typename T>
-CLI::Option* add(CLI::App& app, const char* name, T& target, const char* value, const std::string& text)
+CLI::Option* add(CLI::App& app, const std::string& name, T& target, const char* value, const std::string& text)
 {
     return app.add_option(name, target, text)->option_text(value)->take_last();
 }
@@ -58,6 +58,9 @@ void add_search(CLI::App& app, SearchChoice& search)
             "primitives in a voxel before it is split; default 0, the strategy's own");
     add_int(app, "--grid-depth", search.grid_depth, 1, 8,
             "levels of grids; default " + std::to_string(search.grid_depth));
+    for (const OwnChoice& own : own_choices())
+        add(app, "--" + std::string(own.flag), search.own[std::string(own.flag)], "NAME",
+            list_of(own.words) + ": " + std::string(own.summary) + "; default " + std::string(own.words[0]));
 }
 
 void add_render(CLI::App& app, RenderJob& job)

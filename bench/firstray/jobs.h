@@ -1,4 +1,5 @@
 #pragma once
+#include <map>
 #include <string>
 
 #include "bench/firstray/command.h"
@@ -20,6 +21,7 @@ struct SearchChoice {
     float grid_density = 0.0f;
     int max_list = 0;
     int grid_depth = StrategyOptions{}.grid_depth;
+    std::map<std::string, std::string, std::less<>> own;  ///< StrategyOptions::own, by flag
 };
 
 struct RenderJob {

@@ -43,17 +43,34 @@ void check_search(const SearchChoice& choice)
     if (in_double ? entry.make_double == nullptr : entry.make == nullptr)
         throw UsageError(fmt::format("--precision: strategy {} has no {}, expected {}", entry.name, choice.precision,
                                      in_double ? "fast or robust" : "double"));
+    for (const OwnChoice& own : own_choices())
+        if (const auto word = choice.own.find(own.flag); word != choice.own.end() && !word->second.empty())
+            find_word("--" + word->first, word->second, own.words);
+}
+
+Json own_choices_of(const SearchChoice& choice)
+{
+    Json chosen = Json::object();
+    for (const OwnChoice& own : own_choices()) {
+        const auto word = choice.own.find(own.flag);
+        const bool is_given = word != choice.own.end() && !word->second.empty();
+        if (own.flag.starts_with(choice.strategy + "-"))
+            chosen[std::string(own.flag)] = is_given ? word->second : std::string(own.words[0]);
+    }
+    return chosen;
 }
 
 AnyStrategy make_strategy(const SearchChoice& choice, const Scene& scene, const Executor& executor)
 {
     check_search(choice);
     const StrategyEntry& entry = parse_strategy(choice.strategy);
-    const StrategyOptions options{.precision = parse_precision(choice.precision),
-                                  .grid_density = choice.grid_density,
-                                  .max_list = choice.max_list,
-                                  .grid_depth = choice.grid_depth,
-                                  .executor = &executor};
+    StrategyOptions options{.precision = parse_precision(choice.precision),
+                            .grid_density = choice.grid_density,
+                            .max_list = choice.max_list,
+                            .grid_depth = choice.grid_depth,
+                            .executor = &executor};
+    for (const auto& [flag, word] : choice.own)
+        if (!word.empty()) options.own.emplace_back(flag, word);
     if (options.precision == Precision::double_) return entry.make_double(scene, options);
     return entry.make(scene, options);
 }

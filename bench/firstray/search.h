@@ -4,6 +4,7 @@
 #include <variant>
 
 #include "bench/firstray/jobs.h"
+#include "bench/firstray/stats.h"
 #include "bench/strategies.h"
 
 namespace firstray::command {
@@ -17,6 +18,9 @@ std::string strategy_names();
 /// Refuses a strategy or precision that does not exist before anything large is read.
 /// throws  UsageError
 void check_search(const SearchChoice& choice);
+
+/// The choices that the strategy alone offers, with their words.
+Json own_choices_of(const SearchChoice& choice);
 
 /// throws  UsageError, and what making the strategy throws
 AnyStrategy make_strategy(const SearchChoice& choice, const Scene& scene, const Executor& executor);

@@ -157,13 +157,16 @@ std::vector<FrameRays> frames_of(const Scene& scene, const MeasurePlan& plan)
     return frames;
 }
 
-std::vector<Contender> make_contenders(const Scene& scene, const StrategyOptions& options,
-                                       std::vector<Measured>& results)
+std::vector<Contender> make_contenders(const Scene& scene, const std::vector<Contestant>& contestants,
+                                       StrategyOptions options, std::vector<Measured>& results)
 {
     std::vector<Contender> contenders;
-    for (Measured& result : results) {
-        contenders.push_back({result, nullptr});
-        attempt(result, [&] { contenders.back().strategy = result.entry->make(scene, options); });
+    results.resize(contestants.size());
+    for (std::size_t i = 0; i < contestants.size(); ++i) {
+        results[i].name = contestants[i].name;
+        options.own = contestants[i].own;
+        contenders.push_back({results[i], nullptr});
+        attempt(results[i], [&] { contenders.back().strategy = contestants[i].entry->make(scene, options); });
     }
     return contenders;
 }
@@ -177,9 +180,7 @@ Measurement measure(const Scene& scene, const MeasurePlan& plan)
     options.executor = &executor;
 
     Measurement measurement;
-    measurement.strategies.resize(plan.contenders.size());
-    for (std::size_t i = 0; i < plan.contenders.size(); ++i) measurement.strategies[i].entry = plan.contenders[i];
-    std::vector<Contender> contenders = make_contenders(scene, options, measurement.strategies);
+    std::vector<Contender> contenders = make_contenders(scene, plan.contestants, options, measurement.strategies);
     std::vector<FrameRays> frames = frames_of(scene, plan);
 
     auto reference = plan.reference->make(scene, options);

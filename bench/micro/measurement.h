@@ -9,15 +9,22 @@
 
 namespace firstray {
 
+/// A strategy with choices of its own.
+struct Contestant {
+    std::string name;  ///< e.g. "obb+obb-top=list"
+    const StrategyEntry* entry = nullptr;
+    std::vector<std::pair<std::string, std::string>> own;
+};
+
 /// What a measurement of one scene consists of.
 struct MeasurePlan {
     int frames = 10;  ///< spread evenly from the first on: 0, n/10, 2n/10 ...
     int rounds = 5;   ///< how often all strategies go through all frames
     int width = 800, height = 592;
-    RayMask shadow_mask = RayMask::opaque;  ///< as the renderer asks; taken as `all` where nothing transmits
-    StrategyOptions options;  ///< of every strategy; the executor is the measurement's own
+    RayMask shadow_mask = RayMask::opaque;     ///< as the renderer asks; taken as `all` where nothing transmits
+    StrategyOptions options;                   ///< of every strategy; the executor is the measurement's own
     const StrategyEntry* reference = nullptr;  ///< answers are checked against its; its hits make the shadow rays
-    std::vector<const StrategyEntry*> contenders;
+    std::vector<Contestant> contestants;
 };
 
 /// Seconds on one thread.
@@ -34,7 +41,7 @@ struct Agreement {
 
 /// What was learnt of one strategy.
 struct Measured {
-    const StrategyEntry* entry = nullptr;
+    std::string name;
     std::string fault;  ///< why it was not timed; empty where it was
     Agreement agreement;
     StructureReport structure;                    ///< after the last frame's rays
@@ -42,7 +49,7 @@ struct Measured {
 };
 
 struct Measurement {
-    std::vector<Measured> strategies;       ///< by MeasurePlan::contenders
+    std::vector<Measured> strategies;       ///< by MeasurePlan::contestants
     std::uint64_t primary = 0, shadow = 0;  ///< rays of all frames
 };
 

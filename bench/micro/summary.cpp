@@ -32,7 +32,7 @@ std::string format(const char* pattern, Values... values)
 
 void write_line(std::ostream& out, const Measured& base, const Measured& measured)
 {
-    out << format("  %-18s", std::string(measured.entry->name).c_str());
+    out << format("  %-18s", measured.name.c_str());
     for (const ReportedPart& part : parts) {
         const Ratio ratio = ratio_to(base, measured, part);
         out << format(" %9.1f ms x%6.3f [%6.3f %6.3f]", 1e3 * typical_seconds(measured, part), ratio.median,
@@ -88,7 +88,7 @@ std::uint64_t rays_of(const Measurement& measurement, const ReportedPart& part)
 const Measured* timed(const Measurement& measurement, std::string_view name)
 {
     for (const Measured& measured : measurement.strategies)
-        if (measured.entry->name == name && measured.fault.empty()) return &measured;
+        if (measured.name == name && measured.fault.empty()) return &measured;
     return nullptr;
 }
 
@@ -111,7 +111,7 @@ void write_table(std::ostream& out, std::string_view scene, const Measurement& m
         if (measured.fault.empty())
             write_line(out, *base_measured, measured);
         else
-            out << "  " << measured.entry->name << ": not timed: " << measured.fault << "\n";
+            out << "  " << measured.name << ": not timed: " << measured.fault << "\n";
 }
 
 }  // namespace firstray

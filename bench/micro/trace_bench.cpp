@@ -20,6 +20,7 @@ constexpr const char* usage =
     "trace_bench [--scene=FILE]... [--strategies=a,b] [--base=embree] [--reference=NAME] [--rounds=5] [--frames=10]\n"
     "            [--size=800x592] [--precision=robust|fast] [--shadow-mask=opaque|all]\n"
     "            [--grid-density=0.1] [--max-list=256] [--grid-depth=3] [Google Benchmark's own flags]\n"
+    "A strategy may carry choices of its own: --strategies=grid,obb,obb+obb-top=list.\n"
     "Default scenes: BART's, found in the folder that FIRSTRAY_BART_DIR names. Default strategies: all but `list`.\n"
     "Shadow rays look at opaque primitives alone, as the renderer's do, or with --shadow-mask=all at all.\n"
     "The reference, whose answers the others must give, is by default the first strategy of our own.\n";
@@ -65,6 +66,19 @@ std::vector<std::string_view> split(std::string_view text, char separator)
     return pieces;
 }
 
+/// A strategy's name, and its own choices behind it: NAME+FLAG=WORD+FLAG=WORD.
+Contestant contestant_of(std::string_view text)
+{
+    const auto pieces = split(text, '+');
+    Contestant contestant{std::string(text), entry_of(pieces[0]), {}};
+    for (std::size_t i = 1; i < pieces.size(); ++i) {
+        const auto sides = split(pieces[i], '=');
+        if (sides.size() != 2) refuse("expected FLAG=WORD in " + std::string(text));
+        contestant.own.emplace_back(sides[0], sides[1]);
+    }
+    return contestant;
+}
+
 void apply_size(std::string_view value, MeasurePlan& plan)
 {
     const auto sides = split(value, 'x');
@@ -100,7 +114,8 @@ bool apply(std::string_view flag, std::string_view value, Settings& settings)
     else if (flag == "--size")
         apply_size(value, plan);
     else if (flag == "--precision")
-        plan.options.precision = choice<Precision>(flag, value, {"robust", Precision::robust}, {"fast", Precision::fast});
+        plan.options.precision =
+            choice<Precision>(flag, value, {"robust", Precision::robust}, {"fast", Precision::fast});
     else if (flag == "--shadow-mask")
         plan.shadow_mask = choice<RayMask>(flag, value, {"all", RayMask::all}, {"opaque", RayMask::opaque});
     else if (flag == "--grid-density")
@@ -110,7 +125,7 @@ bool apply(std::string_view flag, std::string_view value, Settings& settings)
     else if (flag == "--grid-depth")
         plan.options.grid_depth = whole_number(flag, value);
     else if (flag == "--strategies")
-        for (const std::string_view name : split(value, ',')) plan.contenders.push_back(entry_of(name));
+        for (const std::string_view name : split(value, ',')) plan.contestants.push_back(contestant_of(name));
     else
         return false;
     return true;
@@ -135,14 +150,14 @@ std::vector<NamedScene> bart_scenes()
 void fill_defaults(Settings& settings)
 {
     MeasurePlan& plan = settings.plan;
-    const bool all = plan.contenders.empty();
+    const bool all = plan.contestants.empty();
     for (const StrategyEntry& entry : strategies()) {
         if (!entry.make || entry.name == "list") continue;  // testing every primitive takes hours on BART
-        if (all) plan.contenders.push_back(&entry);
+        if (all) plan.contestants.push_back({std::string(entry.name), &entry, {}});
         if (!plan.reference && !entry.peer) plan.reference = &entry;
     }
-    if (plan.contenders.empty()) refuse("no strategy to measure");
-    if (!plan.reference) plan.reference = plan.contenders.front();
+    if (plan.contestants.empty()) refuse("no strategy to measure");
+    if (!plan.reference) plan.reference = plan.contestants.front().entry;
     if (settings.scenes.empty()) settings.scenes = bart_scenes();
 }
 
@@ -218,9 +233,8 @@ private:
 void register_benchmarks(SceneRun& run, const MeasurePlan& plan)
 {
     for (const ReportedPart& part : reported_parts())
-        for (std::size_t i = 0; i < plan.contenders.size(); ++i) {
-            const std::string name =
-                run.name() + "/" + std::string(part.name) + "/" + std::string(plan.contenders[i]->name);
+        for (std::size_t i = 0; i < plan.contestants.size(); ++i) {
+            const std::string name = run.name() + "/" + std::string(part.name) + "/" + plan.contestants[i].name;
             benchmark::RegisterBenchmark(name.c_str(), [&run, &part, i](auto& state) { run.show(state, i, part); })
                 ->UseManualTime()
                 ->Iterations(plan.rounds)

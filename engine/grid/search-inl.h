@@ -131,8 +131,11 @@ struct Search {
     template <class Resolver>
     HWY_INLINE bool run(const Resolver& resolve)
     {
-        return list(structure.large, 0.0f) || traverse(structure.grids[0], walk, 0.0f, stop, resolve, *this);
+        return large() || traverse(structure.grids[0], walk, 0.0f, stop, resolve, *this);
     }
+
+    /// Tests what is kept out of the cells; returns whether the ray is done.
+    HWY_NOINLINE bool large() { return list(structure.large, 0.0f); }
 
     float t_stop() const { return stop; }
     void count_cell() { quest.cost.add_cell(); }
@@ -268,21 +271,24 @@ template <Query query, typename Real, class Searcher>
 HWY_INLINE void search_tile(RayTile<Real>& tile, const Searcher& searcher)
 {
     using Clock = std::chrono::steady_clock;
+    RayCost unasked;
     for (int lane = 0; lane < tile.count; ++lane) {
         tile.primitive[static_cast<std::size_t>(lane)] = no_primitive;
         SearchRay<Real> ray;
         if (!make_search_ray(tile, lane, ray)) continue;
-        if (tile.cost == nullptr) {
-            Quest<query, Real, NoCost> quest{ray, tile.mask, {}, {ray.t_max}};
-            searcher(quest);
-            store_hit(ray, quest.hit, tile, lane);
-            continue;
+        if constexpr (std::is_same_v<Real, float>) {  // counting is a small part of what double costs
+            if (tile.cost == nullptr) {
+                Quest<query, Real, NoCost> quest{ray, tile.mask, {}, {ray.t_max}};
+                searcher(quest);
+                store_hit(ray, quest.hit, tile, lane);
+                continue;
+            }
         }
         const Clock::time_point begin = Clock::now();
-        Quest<query, Real, CountCost> quest{ray, tile.mask, {tile.cost + lane}, {ray.t_max}};
+        Quest<query, Real, CountCost> quest{ray, tile.mask, {tile.cost ? tile.cost + lane : &unasked}, {ray.t_max}};
         searcher(quest);
         store_hit(ray, quest.hit, tile, lane);
-        tile.cost[lane].nanoseconds += static_cast<std::uint64_t>((Clock::now() - begin).count());
+        quest.cost.cost->nanoseconds += static_cast<std::uint64_t>((Clock::now() - begin).count());
     }
 }
 

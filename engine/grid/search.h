@@ -1,8 +1,8 @@
 #pragma once
+#include "engine/core/precision.h"
 #include "engine/core/ray_tile.h"
 #include "engine/grid/grid.h"
 #include "engine/strategy/root_geometry.h"
-#include "engine/strategy/strategy.h"
 
 namespace firstray {
 
