@@ -17,7 +17,7 @@ constexpr const char* render_examples = R"(Examples:
   firstray render Robot.aff --frames 0-799:10 --size 400x300 --stats out/robots.json
   firstray render kitchen.aff --frames 410 --aov distance,primitive --output out/kitchen.####.exr)";
 constexpr const char* info_examples = R"(Examples:
-  firstray info Robot.aff
+  firstray info Robot.aff --structure --frame 456
   firstray info museum5.aff --json | jq .triangles)";
 constexpr const char* trace_examples =
     R"(A ray is a line ox,oy,oz,dx,dy,dz,tmin,tmax in world coordinates; tmax may be inf. Line k of the
@@ -85,6 +85,12 @@ void add_info(CLI::App& app, InfoJob& job)
 {
     add_scene(app, job.scene);
     app.add_flag("--json", job.json, "print JSON");
+    CLI::Option* structure = app.add_flag("--structure", job.structure, "also tell of the boxes and grids of a frame");
+    const std::size_t others = app.get_options().size();
+    add_int(app, "--frame", job.frame, 0, std::numeric_limits<int>::max(), "the scene's frame, from 0; default 0");
+    add_search(app, job.search);
+    const std::vector<CLI::Option*> options = app.get_options({});
+    for (std::size_t i = others; i < options.size(); ++i) options[i]->needs(structure)->group("With --structure");
     app.footer(info_examples);
 }
 

@@ -47,4 +47,10 @@ std::vector<int> frames_of(const std::vector<FrameRange>& ranges, int frames)
     return {listed.begin(), listed.end()};
 }
 
+void check_frame(int frame, int frames)
+{
+    if (frame < 0 || frame >= frames)
+        throw UsageError(fmt::format("--frame: {} is not in the scene, expected one from 0 to {}", frame, frames - 1));
+}
+
 }  // namespace firstray::command

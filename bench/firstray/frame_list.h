@@ -19,4 +19,9 @@ std::vector<FrameRange> parse_frame_list(std::string_view text);
 /// throws  UsageError for a frame outside [0, frames)
 std::vector<int> frames_of(const std::vector<FrameRange>& ranges, int frames);
 
+/// Refuses a value of --frame that the scene does not have.
+/// frames  how many the scene has
+/// throws  UsageError
+void check_frame(int frame, int frames);
+
 }  // namespace firstray::command

@@ -2,8 +2,11 @@
 
 #include <algorithm>
 
+#include "bench/firstray/frame_list.h"
 #include "bench/firstray/jobs.h"
+#include "bench/firstray/search.h"
 #include "bench/firstray/stats.h"
+#include "bench/firstray/structure_table.h"
 #include "engine/image/image.h"
 
 namespace firstray::command {
@@ -139,13 +142,43 @@ std::string table(const Json& info)
     return text + statement_rows(info["statements"]) + texture_rows(info["textures"]);
 }
 
+void add_structure(const InfoJob& job, const Scene& scene, Json& info)
+{
+    const Executor executor(job.search.threads);
+    const AnyStrategy strategy = make_strategy(job.search, scene, executor);
+    const Pose current = pose(scene, scene.time_of(job.frame));
+    const auto outline = std::visit(
+        [&](const auto& chosen) {
+            chosen->update(current);
+            return chosen->outline();
+        },
+        strategy);
+    info["structure_of"] = {
+        {"strategy", job.search.strategy}, {"precision", job.search.precision}, {"frame", job.frame}};
+    info["structure"] = describe_structure(outline, scene.origin);
+}
+
+std::string structure_rows(const Json& info)
+{
+    const std::string strategy = info["structure_of"]["strategy"].get<std::string>();
+    if (info["structure"].empty()) return row("structure", fmt::format("strategy {} has none to show", strategy));
+    return row("structure", fmt::format("strategy {}, frame {}", strategy, info["structure_of"]["frame"].dump())) +
+           structure_table(info["structure"]);
+}
+
 }  // namespace
 
 void print_info(const InfoJob& job, Streams streams)
 {
+    if (job.structure) check_search(job.search);
     const Scene scene = read_scene(job.scene);
-    const Json info = describe(scene, image::read_textures(scene, {.allow_outside = job.scene.allow_outside}));
-    streams.out << (job.json ? info.dump(2) + "\n" : table(info));
+    check_frame(job.frame, scene.frames);
+    Json info = describe(scene, image::read_textures(scene, {.allow_outside = job.scene.allow_outside}));
+    if (job.structure) add_structure(job, scene, info);
+    if (job.json)
+        streams.out << info.dump(2) << "\n";
+    else
+        streams.out << table(info) << (job.structure ? structure_rows(info) : "");
 }
 
 }  // namespace firstray::command

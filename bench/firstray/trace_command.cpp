@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <memory>
 
+#include "bench/firstray/frame_list.h"
 #include "bench/firstray/jobs.h"
 #include "bench/firstray/ray_file.h"
 #include "bench/firstray/search.h"
-#include "bench/firstray/words.h"
 #include "engine/core/pending_file.h"
 
 namespace firstray::command {
@@ -52,9 +52,7 @@ void trace_rays(const TraceJob& job, Streams streams)
     check_search(job.search);
     const std::vector<WorldRay> rays = read_rays(job.rays);
     const Scene scene = read_scene(job.scene);
-    if (job.frame < 0 || job.frame >= scene.frames)
-        throw UsageError(
-            fmt::format("--frame: {} is not in the scene, expected one from 0 to {}", job.frame, scene.frames - 1));
+    check_frame(job.frame, scene.frames);
     const Executor executor(job.search.threads);
     const AnyStrategy strategy = make_strategy(job.search, scene, executor);
     const Pose current = pose(scene, scene.time_of(job.frame));

@@ -15,7 +15,10 @@ namespace {
 /// Lines of a picture this high or lower are as thin as can be; those of higher ones are wider in proportion.
 constexpr double thin_height = 600.0;
 constexpr double box_width = 1.6, cell_width = 1.0;
-constexpr float cell_strength = 0.6f;
+constexpr float cell_strength = 0.65f;
+
+/// There may be thousands of subgrids: their boxes fade as cells this many times smaller do.
+constexpr double subgrid_fading = 3.0;
 
 /// A picture as a background for lines: halfway to grey, and darker, bright places more than dark ones.
 void subdue(std::vector<glm::vec3>& picture)
@@ -62,6 +65,21 @@ std::vector<EdgeKey> cell_edges(const glm::ivec3& dims, std::span<const std::uin
     return edges;
 }
 
+/// How far apart the lines along each axis stand that bound a box's cells: across the axis with the smaller cells, of
+/// those with more than one.
+glm::dvec3 line_spacing(const StructureBox& box)
+{
+    const glm::dvec3 cell = box.size() / glm::dvec3(box.dims);
+    glm::dvec3 spacing;
+    for (int axis = 0; axis < 3; ++axis) {
+        const int b = (axis + 1) % 3, c = (axis + 2) % 3;
+        spacing[axis] = std::max(cell[b], cell[c]);
+        for (const int across : {b, c})
+            if (box.dims[across] > 1) spacing[axis] = std::min(spacing[axis], cell[across]);
+    }
+    return spacing;
+}
+
 class StructureDrawing {
 public:
     StructureDrawing(const Frame& frame, const CameraRays& camera)
@@ -75,7 +93,7 @@ public:
         Pen pen{.colour = colour, .width = box_width * width_scale_};
         if (box.kind == StructureBox::Kind::subgrid) {
             const glm::dvec3 size = box.size();
-            pen.spacing = std::max({size.x, size.y, size.z});
+            pen.spacing = std::max({size.x, size.y, size.z}) / subgrid_fading;
         }
         draw_edges(box.root_from_box, pen);
         if (glm::all(glm::greaterThan(box.dims, glm::ivec3(0))))
@@ -102,8 +120,8 @@ private:
     /// Draws the edges of some cells of a box; edges in a row are one line.
     void draw_cells(const StructureBox& box, std::span<const std::uint32_t> cells, Pen pen)
     {
-        const glm::dvec3 cell = box.size() / glm::dvec3(box.dims);
-        if (is_too_fine(box, std::max({cell.x, cell.y, cell.z}))) return;
+        const glm::dvec3 spacing = line_spacing(box);
+        if (is_too_fine(box, std::max({spacing.x, spacing.y, spacing.z}))) return;
         const std::vector<EdgeKey> edges = cell_edges(box.dims, cells);
         for (std::size_t i = 0; i < edges.size();) {
             std::size_t end = i + 1;
@@ -115,7 +133,7 @@ private:
             from[c] = static_cast<double>(edges[i] >> (2 * key_bits) & place_mask);
             glm::dvec3 to = from;
             to[axis] += static_cast<double>(end - i);
-            pen.spacing = std::max(cell[b], cell[c]);
+            pen.spacing = spacing[axis];
             const glm::dvec3 dims(box.dims);
             layer_.draw(box.root_from_box.point(from / dims), box.root_from_box.point(to / dims), pen);
             i = end;

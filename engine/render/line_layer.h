@@ -36,10 +36,14 @@ private:
         float strength = 0.0f;
     };
     struct Segment;
-    void draw_across(const Segment& segment, int major, const Pen& pen);
+    struct Stroke;
+    void draw(const Stroke& stroke, const Pen& pen);
+    bool is_hidden(const Stroke& stroke) const;
+    std::size_t pixel_of(const Stroke& stroke, int k) const;
 
     const Frame& frame_;
     const CameraRays& camera_;
+    double pixel_;           ///< its size at depth 1
     std::vector<Ink> inks_;  ///< by pixel
 };
 

@@ -1,5 +1,6 @@
 #include "bench/firstray/command.h"
 
+#include <OpenImageIO/imageio.h>
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -54,6 +55,17 @@ nlohmann::json read_json(const std::filesystem::path& file)
     return nlohmann::json::parse(in);
 }
 
+/// The first three channels of a picture, pixel by pixel.
+std::vector<float> channels(const std::filesystem::path& file)
+{
+    const auto input = OIIO::ImageInput::open(file.string());
+    REQUIRE(input);
+    const OIIO::ImageSpec& spec = input->spec();
+    std::vector<float> values(static_cast<std::size_t>(spec.width) * static_cast<std::size_t>(spec.height) * 3);
+    REQUIRE(input->read_image(0, 0, 0, 3, OIIO::TypeDesc::FLOAT, values.data()));
+    return values;
+}
+
 TEST_CASE("a command line that cannot be taken is told in one line and exits with 2")
 {
     const std::pair<std::string, std::string> cases[] = {
@@ -72,6 +84,9 @@ TEST_CASE("a command line that cannot be taken is told in one line and exits wit
         {"render a.aff --aov depth", "expected distance, primitive"},
         {"render a.aff --output a.jpg", ".exr or .png"},
         {"render a.aff --progress often", "expected auto, always or never"},
+        {"info a.aff --strategy grid", "--strategy requires --structure"},
+        {"info a.aff --frame 3", "--frame requires --structure"},
+        {"info a.aff --structure --strategy gird", "did you mean grid?"},
         {"trace a.aff --rays r.csv", "needs --frame"},
         {"trace a.aff --frame 0", "needs --rays"},
     };
@@ -111,6 +126,7 @@ TEST_CASE("bad scenes, missing files and frames beyond the end have their own ex
     CHECK(call({"info", bad}).code == 3);
     CHECK(call({"info", bad + "x"}).code == 4);
     CHECK(call({"render", good, "--frames", "5"}).code == 2);
+    CHECK(call({"info", good, "--structure", "--frame", "5"}).code == 2);
     CHECK(call({"trace", good, "--frame", "0", "--rays", rays}).code == 3);
     CHECK(call({"trace", good, "--frame", "0", "--rays", rays + "x"}).code == 4);
     CHECK(call({"trace", good, "--frame", "-1", "--rays", rays}).code == 2);
@@ -222,6 +238,69 @@ TEST_CASE("info counts what the scene holds")
     CHECK(info["statements"]["p"] == 2);
     CHECK(info["bounds"]["lo"] == nlohmann::json{-5.0, -5.0, -1.0});
     CHECK(call({"info", scene}).out.find("triangles    3, 0 of them deforming") != std::string::npos);
+}
+
+TEST_CASE("info tells of the structure at a frame when asked, behind what it always tells")
+{
+    const test::TempFolder folder;
+    const std::string scene = folder.write("square.aff", moving_square).string();
+    const std::string plain = call({"info", scene}).out;
+    const Outcome table = call({"info", scene, "--structure", "--frame", "4"});
+    CHECK(table.code == 0);
+    CHECK(table.err.empty());
+    REQUIRE(table.out.starts_with(plain));
+    const std::string added = table.out.substr(plain.size());
+    CHECK(added.starts_with("structure    strategy grid, frame 4\nname "));
+    CHECK(added.find("\ngrid ") != std::string::npos);
+    CHECK(std::count(added.begin(), added.end(), '\n') == 3);
+
+    auto json = nlohmann::json::parse(call({"info", scene, "--json", "--structure", "--frame", "4"}).out);
+    CHECK(json["structure_of"] == nlohmann::json{{"strategy", "grid"}, {"precision", "robust"}, {"frame", 4}});
+    REQUIRE(json["structure"].size() == 1);
+    const auto& grid = json["structure"][0];
+    CHECK(grid["primitives"] == 3);
+    CHECK(grid["subgrids"]["count"] == 0);
+    CHECK(grid["size"][0].get<double>() == doctest::Approx(10.0));  // the triangle's; frame 4's square ends at 4.5
+    CHECK(grid["size"][2].get<double>() == doctest::Approx(1.0));
+    json.erase("structure");
+    json.erase("structure_of");
+    CHECK(json == nlohmann::json::parse(call({"info", scene, "--json"}).out));
+}
+
+TEST_CASE("strategies without a structure say so")
+{
+    const test::TempFolder folder;
+    const std::string scene = folder.write("square.aff", moving_square).string();
+    const std::string out = call({"info", scene, "--structure", "--strategy", "list"}).out;
+    CHECK(out.find("structure    strategy list has none to show\n") != std::string::npos);
+    const auto json = nlohmann::json::parse(call({"info", scene, "--structure", "--strategy", "list", "--json"}).out);
+    CHECK(json["structure"] == nlohmann::json::array());
+    const std::string err = call({"render", scene, "--structure", "--strategy", "list", "--output",
+                                  (folder.path() / "a.png").string(), "--frames", "2"})
+                                .err;
+    CHECK(err.find("strategy list has no structure to draw\n") != std::string::npos);
+}
+
+TEST_CASE("render draws the structure over what it writes, and hashes the picture without it")
+{
+    const test::TempFolder folder;
+    const std::string scene = folder.write("square.aff", moving_square).string();
+    const auto render = [&](const std::string& name, const std::vector<std::string>& more) {
+        std::vector<std::string> arguments = {"render",   scene,
+                                              "--frames", "4",
+                                              "--stats",  (folder.path() / "stats.json").string(),
+                                              "--output", (folder.path() / name).string()};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        REQUIRE(call(arguments).code == 0);
+        return read_json(folder.path() / "stats.json")["frames"][0]["image_hash"];
+    };
+    for (const std::string extension : {".png", ".exr"}) {
+        CAPTURE(extension);
+        const auto plain = render("plain" + extension, {}), drawn = render("drawn" + extension, {"--structure"});
+        CHECK(plain == drawn);
+        CHECK(channels(folder.path() / ("plain" + extension)) != channels(folder.path() / ("drawn" + extension)));
+    }
+    CHECK(read_json(folder.path() / "stats.json")["settings"]["structure"] == true);
 }
 
 }  // namespace

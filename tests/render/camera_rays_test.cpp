@@ -36,6 +36,22 @@ TEST_CASE("camera rays run through square pixels, rows from the top, the angle s
     CHECK(apart(direction(camera, {0.5, 1.5}), glm::dvec3(1.5, -0.5, 1) / std::sqrt(3.5)) < 1e-15);
 }
 
+TEST_CASE("a point on the ray through a place is projected to that place, behind the eye too")
+{
+    test::SmallScene small;
+    small.scene.view = {.from = {1, 2, 3}, .at = {4, 1, 7}, .up = {0, 2, 0}, .angle = 50.0, .hither = 0.5};
+    const Scene scene = small.build();
+    const CameraRays camera = camera_rays(pose(scene, 0.0), 400, 200);
+    for (const glm::dvec2 place : {glm::dvec2(0, 0), {200, 100}, {399.5, 0.5}, {-50, 300}})
+        for (const double t : {0.25, 5.0, -5.0}) {
+            CAPTURE(place.x);
+            CAPTURE(t);
+            const glm::dvec3 ray = direction(camera, place), found = project(camera, camera.eye + t * ray);
+            CHECK(found.z == doctest::Approx(t * glm::dot(ray, camera.forward)));
+            CHECK(apart({found.x / found.z, found.y / found.z, 0}, {place, 0}) < 1e-9);
+        }
+}
+
 TEST_CASE("primary rays start at the eye's apex, at the depth of the near plane")
 {
     test::SmallScene small;
