@@ -20,15 +20,13 @@ constexpr float cell_strength = 0.65f;
 /// There may be thousands of subgrids: their boxes fade as cells this many times smaller do.
 constexpr double subgrid_fading = 3.0;
 
-/// A picture as a background for lines: halfway to grey, and darker, bright places more than dark ones.
+/// A picture as a background for lines: darker and closer to grey.
 void subdue(std::vector<glm::vec3>& picture)
 {
-    constexpr float colourfulness = 0.5f, knee = 0.5f;  // a luminance of 1 becomes 1/3, one near 0 stays
+    constexpr float colourfulness = 0.6f, brightness = 0.45f;
     const glm::vec3 weights(0.2126f, 0.7152f, 0.0722f);
-    for (glm::vec3& colour : picture) {
-        const float luminance = glm::dot(colour, weights);
-        colour = knee / (knee + luminance) * glm::mix(glm::vec3(luminance), colour, colourfulness);
-    }
+    for (glm::vec3& colour : picture)
+        colour = brightness * glm::mix(glm::vec3(glm::dot(colour, weights)), colour, colourfulness);
 }
 
 /// An edge between two corners of cells, as a number that sorts edges of one line one behind the other: the axis, the
@@ -42,6 +40,19 @@ EdgeKey edge_key(int axis, const glm::ivec3& corner)
     const auto place = [&](int a) { return static_cast<EdgeKey>(corner[a % 3]); };
     return static_cast<EdgeKey>(axis) << (3 * key_bits) | place(axis + 2) << (2 * key_bits) |
            place(axis + 1) << key_bits | place(axis);
+}
+
+int axis_of(EdgeKey key)
+{
+    return static_cast<int>(key >> (3 * key_bits));
+}
+
+glm::dvec3 start_of(EdgeKey key)
+{
+    const int axis = axis_of(key);
+    glm::dvec3 corner;
+    for (int k = 0; k < 3; ++k) corner[(axis + k) % 3] = static_cast<double>(key >> (k * key_bits) & place_mask);
+    return corner;
 }
 
 /// The edges of cells, each once though neighbours share it, in order.
@@ -123,18 +134,15 @@ private:
         const glm::dvec3 spacing = line_spacing(box);
         if (is_too_fine(box, std::max({spacing.x, spacing.y, spacing.z}))) return;
         const std::vector<EdgeKey> edges = cell_edges(box.dims, cells);
+        const glm::dvec3 dims(box.dims);
         for (std::size_t i = 0; i < edges.size();) {
             std::size_t end = i + 1;
             while (end < edges.size() && edges[end] == edges[end - 1] + 1) ++end;
-            const int axis = static_cast<int>(edges[i] >> (3 * key_bits)), b = (axis + 1) % 3, c = (axis + 2) % 3;
-            glm::dvec3 from(0.0);
-            from[axis] = static_cast<double>(edges[i] & place_mask);
-            from[b] = static_cast<double>(edges[i] >> key_bits & place_mask);
-            from[c] = static_cast<double>(edges[i] >> (2 * key_bits) & place_mask);
+            const int axis = axis_of(edges[i]);
+            const glm::dvec3 from = start_of(edges[i]);
             glm::dvec3 to = from;
             to[axis] += static_cast<double>(end - i);
             pen.spacing = spacing[axis];
-            const glm::dvec3 dims(box.dims);
             layer_.draw(box.root_from_box.point(from / dims), box.root_from_box.point(to / dims), pen);
             i = end;
         }
