@@ -56,9 +56,9 @@ GridStructure three_levels()
     structure.cells[1] = CellWord::subgrid(1);
     structure.cells[5] = CellWord::subgrid(3);
     structure.cells[6] = CellWord::subgrid(2);
-    structure.cells[7] = CellWord::list(add_list(structure, {1, 5 | transmitting_bit, 7}, {1, 2}));
+    structure.cells[7] = CellWord::list(add_list(structure, {1, 5 | transmitting_bit, 7}, {101, 102}));
     structure.cells[8] = CellWord::list(add_list(structure, {5 | transmitting_bit, 6}));
-    structure.cells[9] = CellWord::list(add_list(structure, {5 | transmitting_bit, 7}, {2}));
+    structure.cells[9] = CellWord::list(add_list(structure, {5 | transmitting_bit, 7}, {102}));
     structure.cells[10] = CellWord::list(add_list(structure, {7}));
     return structure;
 }
@@ -75,7 +75,8 @@ double apart(const glm::dvec3& a, const glm::dvec3& b)
 TEST_CASE("an outline lists grids depth first, with what is in each counted once")
 {
     std::vector<StructureBox> boxes(1);  // there already: somebody else's
-    append_outline(three_levels(), Transform{}, {.name = "arm", .level = 3, .primitives = 99}, boxes);
+    const GridStructure structure = three_levels();
+    append_outline(structure, structure.cells, Transform{}, {.name = "arm", .level = 3, .primitives = 99}, boxes);
     REQUIRE(boxes.size() == 5);
     using Counts = std::array<std::uint64_t, 3>;  // level, primitives, references
     const Counts expected[] = {{3, 99, 14}, {4, 6, 10}, {5, 4, 5}, {4, 1, 1}};
@@ -95,7 +96,8 @@ TEST_CASE("an outline stands where the structure's system is in the root")
 {
     const Transform root_from_structure{rotation_about({0, 0, 1}, std::numbers::pi / 2), {10, 20, 30}};
     std::vector<StructureBox> boxes;
-    append_outline(three_levels(), root_from_structure, {}, boxes);
+    const GridStructure structure = three_levels();
+    append_outline(structure, structure.cells, root_from_structure, {}, boxes);
     REQUIRE(boxes.size() == 4);
     CHECK(apart(boxes[0].root_from_box.point({0, 0, 0}), {10, 20, 30}) < 1e-12);
     CHECK(apart(boxes[0].root_from_box.point({1, 0, 0}), {10, 28, 30}) < 1e-12);
@@ -106,7 +108,7 @@ TEST_CASE("an outline stands where the structure's system is in the root")
 TEST_CASE("nothing is appended where there is no grid")
 {
     std::vector<StructureBox> boxes;
-    append_outline(GridStructure{}, Transform{}, {}, boxes);
+    append_outline(GridStructure{}, {}, Transform{}, {}, boxes);
     CHECK(boxes.empty());
 }
 
