@@ -73,7 +73,7 @@ void add_render(CLI::App& app, RenderJob& job)
     add_search(app, job.search);
     add(app, "--aov", job.aovs, "LIST", "layers of an EXR: distance,primitive,group,cells,tests,time");
     app.add_flag("--structure", job.structure,
-                 "draw boxes and filled cells over the pictures; fades those a few pixels wide");
+                 "draw boxes and filled cells over the pictures; those of few pixels fade out");
     add(app, "--output", job.output, "NAME", "a run of # is the frame; default SCENE.####.png here, .exr with --aov");
     add(app, "--stats", job.stats, "FILE", "write times, rays and structure of every frame as JSON");
     app.add_flag("--table", job.table, "print a line of times per frame to standard output");

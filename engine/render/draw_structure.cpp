@@ -23,7 +23,7 @@ constexpr double subgrid_fading = 3.0;
 /// A picture as a background for lines: darker and closer to grey.
 void subdue(std::vector<glm::vec3>& picture)
 {
-    constexpr float colourfulness = 0.6f, brightness = 0.45f;
+    constexpr float colourfulness = 0.6f, brightness = 0.5f;
     const glm::vec3 weights(0.2126f, 0.7152f, 0.0722f);
     for (glm::vec3& colour : picture)
         colour = brightness * glm::mix(glm::vec3(glm::dot(colour, weights)), colour, colourfulness);
