@@ -72,13 +72,17 @@ TEST_CASE("a box appears where the camera sees it, in its level's colour, and th
 
 TEST_CASE("edges of filled cells are drawn, weaker than the box, and those of empty cells are not")
 {
-    // The front is at depth 2 and spans 40 to 360 of 400 pixels; cell (1, 1, 3) is there at 120 to 200, 200 to 280.
-    const Frame drawn = draw(white_frame(400), {cube({-1.6, -1.6, -5.2}, 3.2, {4, 4, 4}, {4 * 4 * 3 + 5})});
+    // The front is at depth 2 and spans 40 to 360 of 400 pixels; there, cells (1, 1, 3) and (3, 1, 3) are from 120 to
+    // 200 and from 280 to 360, in rows 200 to 280.
+    const std::vector<std::uint32_t> filled = {4 * 4 * 3 + 4 + 1, 4 * 4 * 3 + 4 + 3};
+    const Frame drawn = draw(white_frame(400), {cube({-1.6, -1.6, -5.2}, 3.2, {4, 4, 4}, filled)});
     const float box = inked(drawn, 40, 210), cell = inked(drawn, 120, 250);
     CHECK(box > 0.2f);
     CHECK(cell > 0.1f);
     CHECK(cell < 0.8f * box);
-    CHECK(inked(drawn, 280, 250) == 0.0f);
+    for (const int x : {130, 190, 290, 350}) CHECK(inked(drawn, x, 280) > 0.1f);
+    for (const int x : {90, 210, 240, 270}) CHECK(inked(drawn, x, 280) == 0.0f);
+    CHECK(inked(drawn, 240, 250) == 0.0f);
     CHECK(inked(drawn, 120, 100) == 0.0f);
 }
 
