@@ -27,14 +27,20 @@ struct ExtremePair {
 DAabb bounds_along(const PointSet& points, const glm::dmat3& axes);
 
 /// points  at least one
+double width_along(const PointSet& points, const glm::dvec3& direction);
+
+/// points  at least one
 ExtremePair extreme_pair(const PointSet& points, const glm::dvec3& direction);
+
+/// The linear map into the space where a box along `axes` is a cube of about unit size, to suit searches of thin sets.
+glm::dmat3 cube_from_world(const glm::dmat3& axes, const DAabb& box);
 
 /// The extreme points along directions that are spread evenly in a space where the points' box along `axes` is a cube:
 /// thin sets then keep as many points across as along. At most 2 * directions points; all when there are few.
 PointSet extreme_points(const PointSet& points, const glm::dmat3& axes, int directions);
 
-/// Leaves out of a large set most points that others stand before, seen from the middle of its box along `axes`: keeps the
-/// farthest of every small cone. Small sets come back whole.
+/// Leaves out of a large set most points that others stand before, seen from the middle of its box along `axes`: keeps
+/// the farthest of every small cone. Small sets come back whole.
 PointSet outer_points(const PointSet& points, const glm::dmat3& axes);
 
 }  // namespace firstray::obb

@@ -7,9 +7,9 @@ namespace firstray::obb {
 
 /// An oriented box, closed: the points p with |dot(p - centre, axes[i])| <= half[i].
 struct Obb {
-    glm::dmat3 axes{1.0};    ///< columns: orthonormal, right-handed
+    glm::dmat3 axes{1.0};  ///< columns: orthonormal, right-handed
     glm::dvec3 centre{0.0};
-    glm::dvec3 half{0.0};    ///< half extents along the columns, >= 0
+    glm::dvec3 half{0.0};  ///< half extents along the columns, >= 0
 };
 
 /// What a ray's chance of entering is proportional to.
