@@ -9,9 +9,9 @@ namespace firstray::obb {
 namespace {
 
 constexpr double nearly_flush = 0.15;  ///< radians
-constexpr std::size_t most_edges = 5;  ///< that are tried in pairs
-constexpr int line_evaluations = 30;
-constexpr int most_rounds = 6;
+constexpr std::size_t most_edges = 4;  ///< that are tried in pairs
+constexpr int line_evaluations = 20;
+constexpr int most_rounds = 3;
 
 /// A line between two points that lies nearly in a side of the box.
 struct Edge {
@@ -83,7 +83,7 @@ Frame slide_along(const NearPoints& points, const Frame& start, const Edge& a, c
     };
     double angle = 0.0, step = 0.03;
     Frame best = at(angle);
-    if (best.cost > 1.03 * start.cost) return best;
+    if (best.cost > 1.015 * start.cost) return best;
     for (int i = 0; i < line_evaluations && std::abs(step) > 1e-9; ++i) {
         const Frame next = at(angle + step);
         if (next.cost < best.cost) {

@@ -89,23 +89,45 @@ void keep_best(std::vector<Frame>& frames, std::size_t count)
     if (frames.size() > count) frames.resize(count);
 }
 
-/// Finds starts, then refines ever fewer ever further on ever more of the points.
+/// Adds to `some` those of `all` that stick out of its box along `axes` the most. returns  whether there were any
+bool add_missing(PointSet& some, const PointSet& all, const glm::dmat3& axes)
+{
+    constexpr double rounding = 1e-14;  // of points that are about 1 large
+    const DAabb box = bounds_along(some, axes);
+    const std::size_t before = some.size();
+    for (int i = 0; i < 3; ++i) {
+        const ExtremePair pair = extreme_pair(all, axes[i]);
+        const glm::dvec3 least = all[pair.least], most = all[pair.most];
+        if (glm::dot(least, axes[i]) < box.lo[i] - rounding) some.push_back(least);
+        if (glm::dot(most, axes[i]) > box.hi[i] + rounding) some.push_back(most);
+    }
+    return some.size() > before;
+}
+
+/// Finds starts, then refines ever fewer ever further, on a few points that become as good as all.
 Frame smallest_frame(const PointSet& all)
 {
     const Frame rough = rough_frame(all);
     const PointSet outer = outer_points(all, rough.axes);
-    const PointSet some = extreme_points(outer, rough.axes, 128);
+    PointSet some = extreme_points(outer, rough.axes, 128);
     const glm::dvec3 range = range_about(some, rough);
 
     std::vector<Frame> frames = start_frames(some, rough, range);
     for (Frame& frame : frames) frame = descended(some, frame, {0.15 * range, 50, 1e-3});
     keep_best(frames, 8);
-    for (Frame& frame : frames) frame = descended(outer, frame_along(outer, frame.axes), {0.06 * range, 60, 1e-6});
+    for (const Frame& frame : frames) add_missing(some, outer, frame.axes);
+    for (Frame& frame : frames) frame = descended(some, frame_along(some, frame.axes), {0.06 * range, 60, 1e-6});
     keep_best(frames, 4);
-    for (Frame& frame : frames)
-        for (const double step : {0.04, -0.02}) frame = slid(outer, frame, {step * range, 60, 1e-6});
+    for (const double step : {0.04, -0.02}) {
+        for (const Frame& frame : frames) add_missing(some, all, frame.axes);
+        for (Frame& frame : frames) frame = slid(some, frame_along(some, frame.axes), {step * range, 60, 1e-6});
+    }
     keep_best(frames, 2);
-    for (Frame& frame : frames) frame = slid(all, frame_along(all, frame.axes), {0.01 * range, 60, 1e-9});
+    for (Frame& frame : frames) {
+        for (int round = 0; round < 6 && add_missing(some, all, frame.axes); ++round)
+            frame = slid(some, frame_along(some, frame.axes), {0.01 * range, 60, 1e-9});
+        frame = frame_along(all, frame.axes);
+    }
 
     // boxes that could stand straight do
     const Frame straight = frame_along(all, glm::dmat3(1.0)), best = std::min(frames.front(), frames.back(), cheaper);
