@@ -10,8 +10,9 @@ struct Descent {
     double precision = 0.0;  ///< ends when its frames' costs differ by less, relatively
 };
 
-/// Goes downhill from a frame (Nelder and Mead's simplex: the cost has kinks wherever a side is flush with an edge, and
-/// the best frames lie in them). points   at least one; start's cost is theirs returns  a frame that is no worse
+/// Goes downhill from a frame, with Nelder and Mead's simplex: the cost has kinks wherever a side is flush with an
+/// edge, and the best frames lie in them. points   around start's axes; start's cost is theirs returns  a frame that is
+/// no worse
 Frame descend(const NearPoints& points, const Frame& start, const Descent& how);
 
 }  // namespace firstray::obb

@@ -3,9 +3,10 @@
 
 namespace firstray::obb {
 
-/// Improves a frame along the valleys of the cost, where descend() stalls: turns the box so that two of the edges or
-/// faces of the points' hull that it nearly touches lie flush with its sides, and stay so. points   around `start`,
-/// whose cost is theirs returns  a frame that is no worse
+/// Improves a frame along the valleys of the cost, where descend() stalls: turns the box so that two of the hull's
+/// edges that it nearly touches lie flush with its sides, and stay so.
+/// points   around axes near start's; start's cost is theirs
+/// returns  a frame that is no worse
 Frame slide(const NearPoints& points, const Frame& start);
 
 }  // namespace firstray::obb

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <random>
 #include <string>
 #include <vector>
@@ -157,8 +158,8 @@ struct Ratios {
     }
     void print(const char* what) const
     {
-        MESSAGE(what << ": " << count << " sets, area by the slow search's from " << least << " to " << most << ", "
-                     << above << " above 1.0001");
+        MESSAGE(std::string(what) << ": " << count << " sets, area by the slow search's from " << least << " to "
+                                  << most << ", " << above << " above 1.0001");
     }
 };
 
@@ -223,9 +224,9 @@ void check_degenerate_sets(unsigned first, unsigned last)
 
 }  // namespace
 
-TEST_CASE("a box around 400 random sets is within 1 % of the smallest that a slow search finds")
+TEST_CASE("a box around 200 random sets is within 1 % of the smallest that a slow search finds")
 {
-    compare_random_sets(0, 400);
+    compare_random_sets(0, 200);
 }
 
 TEST_CASE("a box around 10,000 random sets is within 1 % of the smallest that a slow search finds" * doctest::skip())
@@ -240,12 +241,15 @@ TEST_CASE("a box around every group of Robots and Kitchen is within 1 % of the s
         if (!file) return;
         const Scene scene = read_aff(*file);
         Ratios ratios;
+        std::map<std::vector<double>, double> slow_areas;  // the ten robots are alike
         for (const Group& group : scene.groups) {
             const auto first = scene.positions.begin() + group.first_vertex;
             const Points points(first, first + group.vertices);
             if (points.empty()) continue;
+            const auto [place, is_new] = slow_areas.try_emplace({&points[0].x, &points[0].x + 3 * points.size()});
+            if (is_new) place->second = test::slow_obb_area(points);
             const Obb box = obb::smallest_obb(points);
-            const double ratio = obb::surface_area(box) / test::slow_obb_area(points);
+            const double ratio = obb::surface_area(box) / place->second;
             ratios.add(ratio);
             CAPTURE(name);
             CAPTURE(&group - scene.groups.data());
