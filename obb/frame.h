@@ -34,8 +34,7 @@ glm::dvec3 any_perpendicular(const glm::dvec3& v);
 /// Axes along `edge` and across it towards `across`, both of any length, zero and parallel included.
 glm::dmat3 axes_along(const glm::dvec3& edge, const glm::dvec3& across);
 
-/// Axes turned about `turn`, given in their own system; its length is the tangent of half the angle (Rodrigues,
-/// Cayley).
+/// Axes turned about `turn`, given in their own system; its length is the tangent of half the angle.
 glm::dmat3 turned(const glm::dmat3& axes, const glm::dvec3& turn);
 
 /// How far to turn about each axis of a box of this size, as turned(), to pass by every frame that may be smaller: thin
