@@ -74,7 +74,7 @@ std::vector<Frame> start_frames(const PointSet& some, const Frame& rough, const 
     constexpr std::size_t few = 12;
     const bool is_flat = std::min({range.x, range.y, range.z}) < 1e-7;
     std::vector<Frame> frames =
-        some.size() <= few && !is_flat ? flush_frames(some, rough.axes, 32) : sweep(some, rough, range, 40);
+        some.size() <= few && !is_flat ? flush_frames(some, rough.axes, 64) : sweep(some, rough, range, 40);
     frames.push_back(frame_along(some, rough.axes));
     frames.push_back(frame_along(some, glm::dmat3(1.0)));
     return frames;
