@@ -8,7 +8,9 @@
 namespace firstray::obb {
 namespace {
 
-constexpr int flush_angles = 16;  ///< of the half turn that a side flush with one edge can make
+/// Of the half turn that a side flush with one edge can make, with few edges and with more.
+constexpr int many_angles = 48, some_angles = 16;
+constexpr std::size_t few_edges = 15;
 
 /// Whether an edge and some third point span a plane that has all points on one side.
 bool is_hull_edge(const PointSet& points, std::size_t from, std::size_t to)
@@ -48,14 +50,15 @@ std::vector<glm::dvec3> hull_edges(const PointSet& points)
 }
 
 /// The best of the sampled frames that are flush with two edges.
-Frame best_flush_frame(const PointSet& points, const glm::dmat3& cube, const glm::dvec3& a, const glm::dvec3& b)
+Frame best_flush_frame(const PointSet& points, const glm::dmat3& cube, const glm::dvec3& a, const glm::dvec3& b,
+                       int angles)
 {
     Frame best{glm::dmat3(1.0), std::numeric_limits<double>::infinity()};
     // spread in the space where the points' box is a cube: normals go back by the transpose
     const glm::dvec3 a_cube = glm::normalize(cube * a), u_cube = any_perpendicular(a_cube);
     const glm::dvec3 u = u_cube * cube, v = glm::cross(a_cube, u_cube) * cube;
-    for (int i = 0; i < flush_angles; ++i) {
-        const double angle = std::numbers::pi * i / flush_angles;
+    for (int i = 0; i < angles; ++i) {
+        const double angle = std::numbers::pi * i / angles;
         const glm::dvec3 first = glm::normalize(std::cos(angle) * u + std::sin(angle) * v);
         const glm::dvec3 second = glm::cross(first, b);
         const double length = glm::length(second);
@@ -72,10 +75,11 @@ std::vector<Frame> flush_frames(const PointSet& points, const glm::dmat3& axes, 
 {
     const glm::dmat3 cube = cube_from_world(axes, bounds_along(points, axes));
     const std::vector<glm::dvec3> edges = hull_edges(points);
+    const int angles = edges.size() <= few_edges ? many_angles : some_angles;
     std::vector<Frame> frames;
     for (std::size_t i = 0; i < edges.size(); ++i)
         for (std::size_t k = i; k < edges.size(); ++k)
-            frames.push_back(best_flush_frame(points, cube, edges[i], edges[k]));
+            frames.push_back(best_flush_frame(points, cube, edges[i], edges[k], angles));
     std::sort(frames.begin(), frames.end(), cheaper);
     if (frames.size() > count) frames.resize(count);
     return frames;
