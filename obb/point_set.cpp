@@ -14,15 +14,6 @@ constexpr std::size_t many_points = 4096;  ///< more than there are cones below
 constexpr int cones_per_side = 24;         ///< of a cube around the points
 constexpr double least_thickness = 1e-9;   ///< relative to the longest side; what is thinner counts as flat
 
-/// The linear map into the space where the box along `axes` is a cube of about unit size.
-glm::dmat3 cube_from_world(const glm::dmat3& axes, const DAabb& box)
-{
-    const glm::dvec3 size = box.size();
-    const double longest = std::max({size.x, size.y, size.z, 1e-300});
-    const glm::dvec3 unit = glm::max(size, glm::dvec3(longest * least_thickness));
-    return glm::transpose(glm::dmat3(axes[0] / unit.x, axes[1] / unit.y, axes[2] / unit.z));
-}
-
 /// The i-th of `count` directions that cover a hemisphere evenly, along a Fibonacci spiral.
 glm::dvec3 spread_direction(int i, int count)
 {
@@ -47,6 +38,14 @@ std::size_t cone_of(const glm::dvec3& p)
 
 }  // namespace
 
+glm::dmat3 cube_from_world(const glm::dmat3& axes, const DAabb& box)
+{
+    const glm::dvec3 size = box.size();
+    const double longest = std::max({size.x, size.y, size.z, 1e-300});
+    const glm::dvec3 unit = glm::max(size, glm::dvec3(longest * least_thickness));
+    return glm::transpose(glm::dmat3(axes[0] / unit.x, axes[1] / unit.y, axes[2] / unit.z));
+}
+
 void PointSet::reserve(std::size_t count)
 {
     x.reserve(count);
@@ -69,6 +68,21 @@ DAabb bounds_along(const PointSet& points, const glm::dmat3& axes)
         box.grow(glm::dvec3(glm::dot(p, axes[0]), glm::dot(p, axes[1]), glm::dot(p, axes[2])));
     }
     return box;
+}
+
+double width_along(const PointSet& points, const glm::dvec3& direction)
+{
+    // two at a time: otherwise each waits for the comparison before
+    const std::size_t last = points.size() - 1;
+    double least = glm::dot(points[last], direction), most = least, other_least = least, other_most = least;
+    for (std::size_t i = 0; i + 1 < points.size(); i += 2) {
+        const double at = glm::dot(points[i], direction), other = glm::dot(points[i + 1], direction);
+        least = at < least ? at : least;
+        most = at > most ? at : most;
+        other_least = other < other_least ? other : other_least;
+        other_most = other > other_most ? other : other_most;
+    }
+    return std::max(most, other_most) - std::min(least, other_least);
 }
 
 ExtremePair extreme_pair(const PointSet& points, const glm::dvec3& direction)

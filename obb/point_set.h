@@ -23,11 +23,15 @@ struct ExtremePair {
     std::size_t least = 0, most = 0;
 };
 
-/// Bounds of the points in the system of `axes` (columns). points  at least one
+/// Bounds of the points in the system of `axes` (columns). Here and in what follows there is at least one point.
 DAabb bounds_along(const PointSet& points, const glm::dmat3& axes);
 
-/// points  at least one
+double width_along(const PointSet& points, const glm::dvec3& direction);
+
 ExtremePair extreme_pair(const PointSet& points, const glm::dvec3& direction);
+
+/// The linear map into the space where a box along `axes` is a cube of about unit size, to suit searches of thin sets.
+glm::dmat3 cube_from_world(const glm::dmat3& axes, const DAabb& box);
 
 /// The extreme points along directions that are spread evenly in a space where the points' box along `axes` is a cube:
 /// thin sets then keep as many points across as along. At most 2 * directions points; all when there are few.
