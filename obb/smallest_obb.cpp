@@ -4,10 +4,10 @@
 #include <cmath>
 #include <limits>
 
-#include "obb/descent.h"
-#include "obb/flush_frames.h"
-#include "obb/slide.h"
-#include "obb/start_frames.h"
+#include "obb/fit/descent.h"
+#include "obb/fit/flush_frames.h"
+#include "obb/fit/slide.h"
+#include "obb/fit/start_frames.h"
 
 namespace firstray::obb {
 namespace {

@@ -22,8 +22,11 @@ TriangleBoxOverlap::TriangleBoxOverlap(const glm::vec3& v0, const glm::vec3& v1,
     nearest_ = plane - (std::max(reach.x, 0.0f) + std::max(reach.y, 0.0f) + std::max(reach.z, 0.0f)) - tilt;
     farthest_ = plane - (std::min(reach.x, 0.0f) + std::min(reach.y, 0.0f) + std::min(reach.z, 0.0f)) + tilt;
 
+    const float uncertain = 0x1p-21f * longest * longest;
     for (int axis = 0; axis < 3; ++axis) {
         const int p = (axis + 1) % 3, q = (axis + 2) % 3;
+        // Along an axis from which the triangle is seen edge-on, its corners may turn either way; its plane says as much.
+        if (std::abs(normal_[axis]) <= uncertain) continue;
         const float turn = normal_[axis] < 0.0f ? -1.0f : 1.0f;
         for (int i = 0; i < 3; ++i) {
             Edge& edge = edges_[axis][i];

@@ -20,7 +20,7 @@ public:
 
 private:
     struct Edge {
-        float a, b, c;  ///< inside where a * p + b * q + c >= 0, for the box's most inner corner
+        float a = 0.0f, b = 0.0f, c = 0.0f;  ///< inside where a * p + b * q + c >= 0, for the box's most inner corner
     };
     glm::vec3 normal_;
     float nearest_, farthest_;  ///< bounds on -normal . lo

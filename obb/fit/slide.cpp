@@ -1,4 +1,4 @@
-#include "obb/slide.h"
+#include "obb/fit/slide.h"
 
 #include <algorithm>
 #include <array>

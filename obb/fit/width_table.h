@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "obb/point_set.h"
+#include "obb/fit/point_set.h"
 
 namespace firstray::obb {
 

@@ -1,4 +1,4 @@
-#include "obb/width_table.h"
+#include "obb/fit/width_table.h"
 
 #include <array>
 #include <limits>

@@ -1,5 +1,5 @@
 #pragma once
-#include "obb/near_points.h"
+#include "obb/fit/near_points.h"
 
 namespace firstray::obb {
 

@@ -1,7 +1,7 @@
 #pragma once
 #include <glm/glm.hpp>
 
-#include "obb/point_set.h"
+#include "obb/fit/point_set.h"
 
 namespace firstray::obb {
 

@@ -1,10 +1,10 @@
-#include "obb/start_frames.h"
+#include "obb/fit/start_frames.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-#include "obb/width_table.h"
+#include "obb/fit/width_table.h"
 
 namespace firstray::obb {
 namespace {

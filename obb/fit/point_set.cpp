@@ -1,4 +1,4 @@
-#include "obb/point_set.h"
+#include "obb/fit/point_set.h"
 
 #include <algorithm>
 #include <array>

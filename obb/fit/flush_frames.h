@@ -1,7 +1,7 @@
 #pragma once
 #include <vector>
 
-#include "obb/frame.h"
+#include "obb/fit/frame.h"
 
 namespace firstray::obb {
 

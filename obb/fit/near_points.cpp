@@ -1,4 +1,4 @@
-#include "obb/near_points.h"
+#include "obb/fit/near_points.h"
 
 #include <algorithm>
 #include <cmath>

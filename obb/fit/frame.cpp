@@ -1,4 +1,4 @@
-#include "obb/frame.h"
+#include "obb/fit/frame.h"
 
 #include <algorithm>
 

@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "obb/frame.h"
+#include "obb/fit/frame.h"
 
 namespace firstray::obb {
 

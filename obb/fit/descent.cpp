@@ -1,4 +1,4 @@
-#include "obb/descent.h"
+#include "obb/fit/descent.h"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "obb/flush_frames.h"
+#include "obb/fit/flush_frames.h"
 
 #include <algorithm>
 #include <cmath>
