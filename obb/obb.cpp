@@ -6,7 +6,7 @@
 #include "engine/grid/bin.h"
 #include "engine/grid/outline.h"
 #include "obb/box.h"
-#include "obb/boxed_grid.h"
+#include "engine/grid/boxed_grid.h"
 #include "obb/hierarchy.h"
 #include "obb/placing.h"
 #include "obb/search.h"

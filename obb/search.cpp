@@ -34,17 +34,6 @@ HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace firstray::obb {
-namespace {
-
-/// Numbers of rays never repeat on a thread, so that visits of one structure say nothing about another.
-Visits& visits_of_this_thread()
-{
-    thread_local Visits visits;
-    return visits;
-}
-
-}  // namespace
-
 HWY_EXPORT(closest_float);
 HWY_EXPORT(closest_double);
 HWY_EXPORT(any_float);
@@ -52,19 +41,19 @@ HWY_EXPORT(any_double);
 
 void search_closest(const SearchTarget<float>& target, RayTile<float>& tile)
 {
-    HWY_DYNAMIC_DISPATCH(closest_float)(target, visits_of_this_thread(), tile);
+    HWY_DYNAMIC_DISPATCH(closest_float)(target, Visits::of_this_thread(), tile);
 }
 void search_closest(const SearchTarget<double>& target, RayTile<double>& tile)
 {
-    HWY_DYNAMIC_DISPATCH(closest_double)(target, visits_of_this_thread(), tile);
+    HWY_DYNAMIC_DISPATCH(closest_double)(target, Visits::of_this_thread(), tile);
 }
 void search_any(const SearchTarget<float>& target, RayTile<float>& tile)
 {
-    HWY_DYNAMIC_DISPATCH(any_float)(target, visits_of_this_thread(), tile);
+    HWY_DYNAMIC_DISPATCH(any_float)(target, Visits::of_this_thread(), tile);
 }
 void search_any(const SearchTarget<double>& target, RayTile<double>& tile)
 {
-    HWY_DYNAMIC_DISPATCH(any_double)(target, visits_of_this_thread(), tile);
+    HWY_DYNAMIC_DISPATCH(any_double)(target, Visits::of_this_thread(), tile);
 }
 
 }  // namespace firstray::obb

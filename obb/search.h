@@ -6,7 +6,7 @@
 #include "engine/core/ray_tile.h"
 #include "engine/strategy/root_geometry.h"
 #include "obb/box.h"
-#include "obb/boxed_grid.h"
+#include "engine/grid/boxed_grid.h"
 
 namespace firstray::obb {
 
@@ -29,26 +29,6 @@ struct SearchTarget {
     const BoxedGrid* scenery;           ///< with the boxes that stand among it; null where there is none
     const BoxedGrid* outer;             ///< boxes that every ray looks for; null where there are none
     const std::vector<Placed>* placed;  ///< by item number
-};
-
-/// Which items a ray has been sent into already.
-class Visits {
-public:
-    void begin_ray(std::size_t items)
-    {
-        if (last_.size() < items) last_.resize(items);
-        ++ray_;
-    }
-    bool is_first(std::uint32_t item)
-    {
-        const bool first = last_[item] != ray_;
-        last_[item] = ray_;
-        return first;
-    }
-
-private:
-    std::vector<std::uint64_t> last_;  ///< by item: the last ray that was sent into it
-    std::uint64_t ray_ = 0;
 };
 
 /// The two queries of Strategy. Any number of threads.

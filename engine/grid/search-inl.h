@@ -107,7 +107,7 @@ struct Search {
 
     Quest& quest;
     const Primitives& primitives;
-    const GridStructure& structure;
+    const GridStructure* structure;
     WalkRay walk{};
     FilterRay filter{};
     float stop = 0.0f;  ///< walk t beyond which no primitive can beat the hit
@@ -117,12 +117,12 @@ struct Search {
     /// loose  see make_filter_ray
     HWY_INLINE bool begin(const glm::dvec3& o, const glm::dvec3& d, float loose)
     {
-        const Grid& top = structure.grids[0];
+        const Grid& top = structure->grids[0];
         if (!make_walk_ray(o, d, static_cast<double>(quest.ray.t_min), static_cast<double>(quest.hit.t),
-                           glm::dvec3(top.lo), glm::dvec3(top.hi()), structure.pad, walk))
+                           glm::dvec3(top.lo), glm::dvec3(top.hi()), structure->pad, walk))
             return false;
-        filter = make_filter_ray(o, d, walk.exact_inverse, structure.largest, structure.blur, loose);
-        filter.set_near_end(walk, structure.pad);
+        filter = make_filter_ray(o, d, walk.exact_inverse, structure->largest, structure->blur, loose);
+        filter.set_near_end(walk, structure->pad);
         update_stop();
         return true;
     }
@@ -131,11 +131,11 @@ struct Search {
     template <class Resolver>
     HWY_INLINE bool run(const Resolver& resolve)
     {
-        return large() || traverse(structure.grids[0], walk, 0.0f, stop, resolve, *this);
+        return large() || traverse(structure->grids[0], walk, 0.0f, stop, resolve, *this);
     }
 
     /// Tests what is kept out of the cells; returns whether the ray is done.
-    HWY_NOINLINE bool large() { return list(structure.large, 0.0f); }
+    HWY_NOINLINE bool large() { return list(structure->large, 0.0f); }
 
     float t_stop() const { return stop; }
     void count_cell() { quest.cost.add_cell(); }
@@ -143,7 +143,7 @@ struct Search {
     void update_stop()
     {
         stop = stop_of(quest.hit.t, walk);
-        filter.set_far_end(stop, structure.pad);
+        filter.set_far_end(stop, structure->pad);
     }
 
     /// Takes a hit if it counts; returns whether the ray is done.
@@ -173,7 +173,7 @@ struct Search {
     bool quadrics(const VoxelList& voxel)
     {
         for (std::uint32_t q = 0; q < voxel.quadrics; ++q) {
-            const PrimitiveId id = structure.quadrics[voxel.first_quadric + q];
+            const PrimitiveId id = structure->quadrics[voxel.first_quadric + q];
             quest.cost.add_quadric();
             const Real t = primitives.quadric(id, quest.mask);
             if (std::isfinite(t) && offer(t, 0, 0, id)) return true;
@@ -184,12 +184,12 @@ struct Search {
     /// Tests a voxel's primitives; returns whether the ray is done.
     HWY_INLINE bool list(const VoxelList& voxel, float t_enter)
     {
-        const TrianglePack* packs = structure.packs.data() + voxel.first_pack;
+        const TrianglePack* packs = structure->packs.data() + voxel.first_pack;
         if (voxel.packs < boxed_packs) {
             if (voxel.packs == 1 && pack(packs[0])) return true;
         } else {
             for (std::uint32_t block = 0; block < voxel.box_blocks(); ++block)
-                if (boxed(structure.boxes[voxel.first_boxes + block], packs + block * pack_size, t_enter)) return true;
+                if (boxed(structure->boxes[voxel.first_boxes + block], packs + block * pack_size, t_enter)) return true;
         }
         return voxel.quadrics > 0 && quadrics(voxel);
     }
@@ -260,7 +260,7 @@ template <class Quest, class Resolver>
 HWY_INLINE void search_root(const SearchTarget<typename Quest::Real>& target, const Resolver& resolve, Quest& quest)
 {
     const RootPrimitives<typename Quest::Real> primitives{*target.geometry, quest.ray, target.precision};
-    Search<Quest, RootPrimitives<typename Quest::Real>> search{quest, primitives, *target.structure};
+    Search<Quest, RootPrimitives<typename Quest::Real>> search{quest, primitives, target.structure};
     const bool loose = target.precision == Precision::fast;
     if (search.begin(glm::dvec3(quest.ray.origin), glm::dvec3(quest.ray.direction), loose ? 1.0f : 0.0f))
         search.run(resolve);

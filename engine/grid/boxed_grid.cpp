@@ -1,4 +1,4 @@
-#include "obb/boxed_grid.h"
+#include "engine/grid/boxed_grid.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 #include "engine/grid/bin.h"
 #include "engine/grid/resolution.h"
 
-namespace firstray::obb {
+namespace firstray {
 namespace {
 
 /// Cells per item of a grid around items alone.
@@ -154,4 +154,4 @@ Item make_item(std::uint32_t number, const Transform& local_from_root, const Tra
     return item;
 }
 
-}  // namespace firstray::obb
+}  // namespace firstray
