@@ -6,6 +6,7 @@
 #include "bench/peers/embree.h"
 #include "engine/strategy/grid.h"
 #include "engine/strategy/list.h"
+#include "lazy/lazy.h"
 #include "obb/obb.h"
 
 namespace firstray {
@@ -15,7 +16,8 @@ namespace {
 using OwnWords = std::vector<std::pair<std::string, std::string>>;
 
 constexpr std::string_view obb_groups[] = {"dynamic", "all"}, obb_top[] = {"grid", "list"},
-                           obb_hits[] = {"root", "local"}, obb_inside[] = {"auto", "grid", "list"};
+                           obb_hits[] = {"root", "local"}, obb_inside[] = {"auto", "grid", "list"},
+                           lazy_top[] = {"groups", "primitives"};
 
 /// Position of the word that was chosen for a flag; 0 where none was.
 /// throws  std::invalid_argument for a word that is not one of the choice's
@@ -45,6 +47,17 @@ std::unique_ptr<Strategy<Real>> make_obb(const Scene& scene, const StrategyOptio
     return obb::make_obb<Real>(scene, options, obb_options(options.own));
 }
 
+lazy::Options lazy_options(const OwnWords& own)
+{
+    return {.top = static_cast<lazy::LazyTop>(chosen(own, "lazy-top"))};
+}
+
+template <typename Real>
+std::unique_ptr<Strategy<Real>> make_lazy(const Scene& scene, const StrategyOptions& options)
+{
+    return lazy::make_lazy<Real>(scene, options, lazy_options(options.own));
+}
+
 }  // namespace
 
 std::span<const StrategyEntry> strategies()
@@ -54,6 +67,8 @@ std::span<const StrategyEntry> strategies()
         {"grid", "one recursive grid, built anew every frame", false, &make_grid<float>, &make_grid<double>},
         {"obb", "boxes that keep their grids and move with what is in them", false, &make_obb<float>,
          &make_obb<double>},
+        {"lazy", "a grid whose parts come into being when the first ray enters them", false, &make_lazy<float>,
+         &make_lazy<double>},
 #ifdef FIRSTRAY_HAVE_EMBREE
         {"embree", "Embree 3, one tree of medium quality, built anew every frame", true, &peers::make_embree_medium},
         {"embree-low", "Embree 3, the tree that is quickest to build", true, &peers::make_embree_low},
@@ -71,6 +86,7 @@ std::span<const OwnChoice> own_choices()
         {"obb-top", obb_top, "boxes stand in the scenery's grid, or in a list that every ray goes through (the paper)"},
         {"obb-hits", obb_hits, "hits in boxes are decided in the root system, or in the box's (the paper)"},
         {"obb-inside", obb_inside, "what is in a box"},
+        {"lazy-top", lazy_top, "the top grid lists boxes of what moves, or every primitive (the paper)"},
     };
     return table;
 }

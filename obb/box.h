@@ -6,6 +6,7 @@
 #include "engine/core/aabb.h"
 #include "engine/core/transform.h"
 #include "engine/grid/build.h"
+#include "engine/grid/entries.h"
 #include "engine/grid/grid.h"
 #include "engine/primitive/quadric.h"
 #include "engine/scene/scene.h"

@@ -4,9 +4,10 @@
 #include <cmath>
 
 #include "engine/grid/bin.h"
-#include "engine/grid/outline.h"
-#include "obb/box.h"
 #include "engine/grid/boxed_grid.h"
+#include "engine/grid/outline.h"
+#include "engine/strategy/group_bounds.h"
+#include "obb/box.h"
 #include "obb/hierarchy.h"
 #include "obb/placing.h"
 #include "obb/search.h"
@@ -14,18 +15,9 @@
 namespace firstray::obb {
 namespace {
 
-/// A cluster that would stand in more cells of the scenery's grid than this is looked for by every ray instead.
-constexpr std::uint64_t most_cells = 4096;
-
 /// A box is made anew when its transform's scale has changed by more than this factor since: the floats of its rays
 /// would leave the range where they are fine.
 constexpr double most_stretch = 1024.0;
-
-/// Poses of the animation at which moving things are looked up, to choose the room that the scenery's grid covers.
-constexpr int sampled_poses = 32;
-
-/// That room has at most so many times the scenery's own surface.
-constexpr float most_room = 1.5f;
 
 template <typename Real>
 class ObbStrategy final : public Strategy<Real> {
@@ -78,12 +70,10 @@ private:
 
     void build(const Pose& pose);
     void build_scenery(const Pose& pose);
-    Aabb room_of_movers() const;
     void make_box(std::uint32_t number, const Transform& root_from_node, double largest);
     void move_box(std::uint32_t number, const Pose& pose);
     void place_clusters(const Pose& pose);
     Item make_item_of(std::uint32_t cluster, const Pose& pose, double wide);
-    bool stands_in_scenery(const Item& item) const;
     void outline_cluster(std::uint32_t cluster, std::vector<StructureBox>& out) const;
 
     const Scene& scene_;
@@ -163,32 +153,11 @@ void ObbStrategy<Real>::build_scenery(const Pose&)
     GridEntries entries = make_entries(geometry_, primitives, options_.executor);
     Aabb own;
     for (const Aabb& box : entries.boxes) own.grow(box);
-    Aabb room = room_of_movers();
-    room.grow(own);
-    const auto surface = [](const glm::vec3& d) { return d.x * d.y + d.y * d.z + d.z * d.x; };
-    if (surface(room.size()) <= most_room * surface(own.size())) entries.room = room;
+    entries.room = room_for_movers(scene_, group_bounds(scene_), own);
     std::uint64_t built_bytes = 0;
     scenery_.structure = build_grid(std::move(entries), maker_.grid, options_.executor, built_bytes);
     regridded_ += group.primitives();
     peak_bytes_ += built_bytes;
-}
-
-/// A box around the places of all moving boxes at some times of the animation.
-template <typename Real>
-Aabb ObbStrategy<Real>::room_of_movers() const
-{
-    Aabb room;
-    for (int i = 0; i < sampled_poses; ++i) {
-        const Pose sample = pose(scene_, scene_.start + (scene_.end - scene_.start) * i / (sampled_poses - 1));
-        for (std::uint32_t number = 0; number < boxes_.size(); ++number) {
-            const std::uint32_t node = group_of(number).node;
-            if (!sample.visible[node] || boxes_[number].bounds.empty()) continue;
-            const Transform& root_from_node = sample.root_from_node[node];
-            const BoxPlace place = place_box(boxes_[number], root_from_node, inverse(root_from_node));
-            room.grow(make_item(number, place.local_from_root, place.root_from_local, place.bounds, 0.0).bounds);
-        }
-    }
-    return room;
 }
 
 template <typename Real>
@@ -251,16 +220,6 @@ Item ObbStrategy<Real>::make_item_of(std::uint32_t index, const Pose& pose, doub
 }
 
 template <typename Real>
-bool ObbStrategy<Real>::stands_in_scenery(const Item& item) const
-{
-    if (own_.top == Top::list || !has_scenery_) return false;
-    const Grid& top = scenery_.structure.grids[0];
-    return glm::all(glm::greaterThanEqual(item.bounds.lo, top.lo)) &&
-           glm::all(glm::lessThanEqual(item.bounds.hi, top.hi())) &&
-           cells_of(top, item.bounds, scenery_.structure.pad).cells() <= most_cells;
-}
-
-template <typename Real>
 void ObbStrategy<Real>::place_clusters(const Pose& pose)
 {
     double largest = static_cast<double>(scenery_.structure.largest);
@@ -272,7 +231,7 @@ void ObbStrategy<Real>::place_clusters(const Pose& pose)
         const auto places = places_of(hierarchy_.clusters[i]);
         if (std::none_of(places.begin(), places.end(), [](const BoxPlace& place) { return place.is_there; })) continue;
         const Item item = make_item_of(i, pose, wide);
-        (stands_in_scenery(item) ? among : outside).push_back(item);
+        (own_.top == Top::grid && has_scenery_ && scenery_.has_room_for(item) ? among : outside).push_back(item);
     }
     scenery_.remove_items();
     if (!among.empty()) scenery_.insert(among);

@@ -49,4 +49,13 @@ void Executor::for_pieces(std::size_t count, std::size_t grain,
              [&](std::size_t piece) { body(piece * grain, std::min(count, (piece + 1) * grain)); });
 }
 
+void for_pieces(const Executor* executor, std::size_t count, std::size_t grain,
+                const std::function<void(std::size_t, std::size_t)>& body)
+{
+    if (executor)
+        executor->for_pieces(count, grain, body);
+    else if (count > 0)
+        body(0, count);
+}
+
 }  // namespace firstray

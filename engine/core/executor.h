@@ -33,4 +33,8 @@ private:
     std::unique_ptr<Arena> arena_;
 };
 
+/// The same with an executor, or without one on this thread in one piece.
+void for_pieces(const Executor* executor, std::size_t count, std::size_t grain,
+                const std::function<void(std::size_t begin, std::size_t end)>& body);
+
 }  // namespace firstray

@@ -6,27 +6,10 @@
 #include "engine/core/aabb.h"
 #include "engine/core/aligned.h"
 #include "engine/core/executor.h"
+#include "engine/grid/entries.h"
 #include "engine/grid/grid.h"
 
 namespace firstray {
-
-/// What is put into grids, in order: triangles in float, then quadrics. An *entry* is an index into these.
-struct GridEntries {
-    RawVector<Aabb> boxes;                     ///< of all entries
-    RawVector<RootTriangle<float>> triangles;  ///< of the first entries; the others are quadrics
-    RawVector<std::uint32_t> ids;              ///< of all entries: PrimitiveId; of triangles with transmitting_bit
-    Aabb room;                                 ///< the top grid covers at least this
-    float blur = 0.0f;  ///< how far the primitives that are tested may be from these, per coordinate
-    float pad = 0.0f;   ///< boxes count as wider by it, on all sides; set by build_grid
-
-    std::uint32_t count() const { return static_cast<std::uint32_t>(boxes.size()); }
-    bool is_triangle(std::uint32_t entry) const { return entry < triangles.size(); }
-    std::uint64_t bytes() const
-    {
-        return boxes.capacity() * sizeof(Aabb) + triangles.capacity() * sizeof(RootTriangle<float>) +
-               4 * ids.capacity();
-    }
-};
 
 /// A list of entries for each cell, in one array: cell c's are entries[first[c]] to entries[first[c + 1]], ascending.
 struct CellLists {

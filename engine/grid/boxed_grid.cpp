@@ -13,6 +13,9 @@ namespace {
 /// Cells per item of a grid around items alone.
 constexpr float items_density = 1.0f;
 
+/// More cells than this are too many to put an item into at every update.
+constexpr std::uint64_t most_cells = 4096;
+
 struct Standing {
     std::uint32_t cell, item;  ///< item: index into the span that is inserted
 };
@@ -66,6 +69,14 @@ void BoxPack::set(int lane, const Item& what)
 void BoxPack::clear(int lane)
 {
     set(lane, {.number = none, .bounds = {}, .cube_from_root = {{}, glm::vec3(1e30f)}});
+}
+
+bool BoxedGrid::has_room_for(const Item& item) const
+{
+    const Grid& top = structure.grids[0];
+    return glm::all(glm::greaterThanEqual(item.bounds.lo, top.lo)) &&
+           glm::all(glm::lessThanEqual(item.bounds.hi, top.hi())) &&
+           cells_of(top, item.bounds, structure.pad).cells() <= most_cells;
 }
 
 void BoxedGrid::remove_items()

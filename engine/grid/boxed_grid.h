@@ -49,6 +49,9 @@ struct BoxedGrid {
     RawVector<BoxPack> packs;
     std::vector<std::uint32_t> occupied;  ///< cells where boxes stand, ascending
 
+    /// Whether an item is inside the top grid, and in few enough of its cells: others should be looked for by every
+    /// ray.
+    bool has_room_for(const Item& item) const;
     void remove_items();
     /// Puts items into all cells of the top grid that their bounds reach. Only while there are none in it.
     void insert(std::span<const Item> items);

@@ -37,41 +37,6 @@ struct GridNode {
     }
 };
 
-RootTriangle<float> rounded(const RootTriangle<float>& t)
-{
-    return t;
-}
-
-RootTriangle<float> rounded(const RootTriangle<double>& t)
-{
-    const glm::vec3 v0(t.v[0]), v1(t.v[1]), v2(t.v[2]);
-    return {{v0, v1, v2}, longest_edge<float>(v0, v1, v2)};
-}
-
-Aabb bounds_of(const RootTriangle<float>& t)
-{
-    return {glm::min(glm::min(t.v[0], t.v[1]), t.v[2]), glm::max(glm::max(t.v[0], t.v[1]), t.v[2])};
-}
-
-Aabb rounded_outwards(const DAabb& box)
-{
-    Aabb result;
-    for (int axis = 0; axis < 3; ++axis) {
-        result.lo[axis] = std::nextafter(static_cast<float>(box.lo[axis]), -std::numeric_limits<float>::infinity());
-        result.hi[axis] = std::nextafter(static_cast<float>(box.hi[axis]), std::numeric_limits<float>::infinity());
-    }
-    return result;
-}
-
-void for_pieces(const Executor* executor, std::size_t count, std::size_t grain,
-                const std::function<void(std::size_t, std::size_t)>& body)
-{
-    if (executor)
-        executor->for_pieces(count, grain, body);
-    else if (count > 0)
-        body(0, count);
-}
-
 /// How many references to so many entries are within an allowance, in references per entry.
 std::uint64_t allowed_references(double allowance, std::size_t entries)
 {
@@ -99,13 +64,13 @@ std::unique_ptr<GridNode> build_node(const Aabb& box, const GridEntries& entries
                                      const Executor* executor);
 
 /// The grid inside a crowded cell, over what lies in the cell, or null where it would make no progress.
-std::unique_ptr<GridNode> build_child(const GridNode& parent, std::uint32_t cell, const GridEntries& entries,
-                                      const GridOptions& options, int levels_left, double allowance)
+std::unique_ptr<GridNode> build_child(const Grid& parent, std::uint32_t cell, std::span<const std::uint32_t> listed,
+                                      const GridEntries& entries, const GridOptions& options, int levels_left,
+                                      double allowance)
 {
-    const std::span<const std::uint32_t> listed = parent.lists.of(cell);
     Aabb content;
     for (const std::uint32_t entry : listed) content.grow(entries.boxes[entry]);
-    const Aabb box = clipped(content, cell_box(parent.grid, cell));
+    const Aabb box = clipped(content, cell_box(parent, cell));
     std::unique_ptr<GridNode> node =
         build_node(box, entries, listed, options.subdensity, allowance, options, levels_left, nullptr);
     std::size_t fullest = 0;
@@ -129,9 +94,11 @@ std::unique_ptr<GridNode> build_node(const Aabb& box, const GridEntries& entries
         if (node->lists.of(cell).size() > static_cast<std::size_t>(options.max_list))
             node->children.push_back({cell, nullptr});
     for_pieces(executor, node->children.size(), 1, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i)
+        for (std::size_t i = begin; i < end; ++i) {
+            const std::uint32_t cell = node->children[i].cell;
             node->children[i].node =
-                build_child(*node, node->children[i].cell, entries, options, levels_left - 1, left);
+                build_child(node->grid, cell, node->lists.of(cell), entries, options, levels_left - 1, left);
+        }
     });
     return node;
 }
@@ -155,9 +122,15 @@ std::vector<std::uint32_t> largest_triangles(const GridEntries& entries, const A
     return result;
 }
 
+/// Lists that have their places in a structure and wait to be filled.
+struct Filling {
+    std::vector<ListToFill> lists;
+    PackCounts counts;
+};
+
 /// Numbers the grids and lists of a tree and lays out its cells; what is left to do is filling the lists.
 void lay_out(const GridNode& node, const GridEntries& entries, std::uint32_t level, GridStructure& structure,
-             std::vector<ListToFill>& lists, PackCounts& counts)
+             Filling& filling)
 {
     const auto grid_index = structure.grids.size();
     const auto first_cell = static_cast<std::uint32_t>(structure.cells.size());
@@ -172,15 +145,64 @@ void lay_out(const GridNode& node, const GridEntries& entries, std::uint32_t lev
         if (child != node.children.end() && child->cell == cell) inside = (child++)->node.get();
         if (inside) {
             structure.cells[first_cell + cell] = CellWord::subgrid(static_cast<std::uint32_t>(structure.grids.size()));
-            lay_out(*inside, entries, level + 1, structure, lists, counts);
+            lay_out(*inside, entries, level + 1, structure, filling);
         } else if (!listed.empty()) {
             structure.cells[first_cell + cell] = CellWord::list(static_cast<std::uint32_t>(structure.lists.size()));
             structure.largest_list = std::max(structure.largest_list, static_cast<std::uint32_t>(listed.size()));
             structure.references += listed.size();
-            structure.lists.push_back(reserve_list(listed, entries, counts));
-            lists.push_back({listed, cell_box(node.grid, cell)});
+            structure.lists.push_back(reserve_list(listed, entries, filling.counts));
+            filling.lists.push_back({listed, cell_box(node.grid, cell)});
         }
     }
+}
+
+/// What there is to know before the first cell: what goes into cells and what does not.
+struct Beginning {
+    Aabb bounds;
+    std::vector<std::uint32_t> large, chosen;
+};
+
+/// Sets the pad of entries and structure.
+Beginning begin(GridEntries& entries, GridStructure& structure)
+{
+    Beginning begun;
+    for (const Aabb& box : entries.boxes) begun.bounds.grow(box);
+    begun.bounds.grow(entries.room);
+    if (begun.bounds.empty()) begun.bounds = {glm::vec3(0.0f), glm::vec3(0.0f)};
+    const glm::vec3 farthest = glm::max(glm::abs(begun.bounds.lo), glm::abs(begun.bounds.hi));
+    structure.largest = std::max(std::max(farthest.x, farthest.y), farthest.z);
+    structure.blur = entries.blur;
+    structure.pad = entries.pad = std::max(structure.largest * pad_factor + entries.blur, 1e-30f);
+
+    begun.large = largest_triangles(entries, begun.bounds);
+    begun.chosen.resize(entries.count());
+    std::iota(begun.chosen.begin(), begun.chosen.end(), 0u);
+    std::erase_if(begun.chosen,
+                  [&](std::uint32_t e) { return std::binary_search(begun.large.begin(), begun.large.end(), e); });
+    return begun;
+}
+
+void fill(GridStructure& structure, const Beginning& begun, const GridEntries& entries, const Filling& filling,
+          const Executor* executor)
+{
+    structure.packs.resize(filling.counts.packs);
+    structure.boxes.resize(filling.counts.boxes);
+    structure.quadrics.resize(filling.counts.quadrics);
+    fill_list(structure.large, {begun.large, begun.bounds}, entries, structure);
+    for_pieces(executor, filling.lists.size(), 64, [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i) fill_list(structure.lists[i], filling.lists[i], entries, structure);
+    });
+}
+
+/// A grid of one cell that lists what it is given.
+std::unique_ptr<GridNode> one_cell(const Aabb& box, std::span<const std::uint32_t> listed)
+{
+    auto node = std::make_unique<GridNode>();
+    node->grid.lo = box.lo;
+    node->grid.cell = box.size();
+    node->lists.first = {0, static_cast<std::uint32_t>(listed.size())};
+    node->lists.entries.assign(listed.begin(), listed.end());
+    return node;
 }
 
 }  // namespace
@@ -194,78 +216,61 @@ GridOptions grid_options(const StrategyOptions& options)
     return grid;
 }
 
-template <typename Real>
-GridEntries make_entries(const RootGeometry<Real>& geometry, const PrimitiveList& primitives, const Executor* executor)
-{
-    GridEntries entries;
-    const std::vector<PrimitiveId>& triangles = primitives.triangles;
-    entries.triangles.resize(triangles.size());
-    entries.ids.resize(triangles.size());
-    entries.boxes.resize(triangles.size());
-    for_pieces(executor, triangles.size(), 8192, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) {
-            const PrimitiveId id = triangles[i];
-            const RootTriangle<float> t = rounded(geometry.triangle(id));
-            entries.triangles[i] = t;
-            entries.ids[i] = id | (geometry.transmits(id) ? transmitting_bit : 0);
-            entries.boxes[i] = bounds_of(t);
-        }
-    });
-    for (const PrimitiveId id : primitives.quadrics) add_quadric(entries, geometry.quadric(id));
-    return entries;
-}
-
-void add_triangle(GridEntries& entries, const RootTriangle<float>& triangle, PrimitiveId id, bool transmits)
-{
-    entries.triangles.push_back(triangle);
-    entries.ids.push_back(id | (transmits ? transmitting_bit : 0));
-    entries.boxes.push_back(bounds_of(triangle));
-}
-
-void add_quadric(GridEntries& entries, const RootQuadric& quadric)
-{
-    entries.ids.push_back(quadric.id);
-    entries.boxes.push_back(rounded_outwards(quadric.bounds));
-}
-
 GridStructure build_grid(GridEntries entries, const GridOptions& options, const Executor* executor,
                          std::uint64_t& peak_bytes)
 {
     GridStructure structure;
-    Aabb bounds;
-    for (const Aabb& box : entries.boxes) bounds.grow(box);
-    bounds.grow(entries.room);
-    if (bounds.empty()) bounds = {glm::vec3(0.0f), glm::vec3(0.0f)};
-    const glm::vec3 farthest = glm::max(glm::abs(bounds.lo), glm::abs(bounds.hi));
-    structure.largest = std::max(std::max(farthest.x, farthest.y), farthest.z);
-    structure.blur = entries.blur;
-    structure.pad = entries.pad = std::max(structure.largest * pad_factor + entries.blur, 1e-30f);
-
-    const std::vector<std::uint32_t> large = largest_triangles(entries, bounds);
-    std::vector<std::uint32_t> chosen(entries.count());
-    std::iota(chosen.begin(), chosen.end(), 0u);
-    std::erase_if(chosen, [&](std::uint32_t e) { return std::binary_search(large.begin(), large.end(), e); });
-
-    const std::unique_ptr<GridNode> top =
-        build_node(bounds, entries, chosen, options.density, most_references, options, options.depth, executor);
-    std::vector<ListToFill> lists;
-    PackCounts counts;
-    structure.large = reserve_list(large, entries, counts);
-    lay_out(*top, entries, 1, structure, lists, counts);
-    structure.packs.resize(counts.packs);
-    structure.boxes.resize(counts.boxes);
-    structure.quadrics.resize(counts.quadrics);
-    fill_list(structure.large, {large, bounds}, entries, structure);
-    for_pieces(executor, lists.size(), 64, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) fill_list(structure.lists[i], lists[i], entries, structure);
-    });
-    peak_bytes = std::max(peak_bytes, structure.bytes() + top->bytes() + entries.bytes() + 4 * chosen.capacity() +
-                                          lists.capacity() * sizeof(ListToFill));
+    const Beginning begun = begin(entries, structure);
+    const std::unique_ptr<GridNode> top = build_node(begun.bounds, entries, begun.chosen, options.density,
+                                                     most_references, options, options.depth, executor);
+    Filling filling;
+    structure.large = reserve_list(begun.large, entries, filling.counts);
+    lay_out(*top, entries, 1, structure, filling);
+    fill(structure, begun, entries, filling, executor);
+    peak_bytes = std::max(peak_bytes, structure.bytes() + top->bytes() + entries.bytes() + 4 * begun.chosen.capacity() +
+                                          filling.lists.capacity() * sizeof(ListToFill));
     return structure;
 }
 
-template GridEntries make_entries(const RootGeometry<float>&, const PrimitiveList&, const Executor*);
-template GridEntries make_entries(const RootGeometry<double>&, const PrimitiveList&, const Executor*);
+TopGrid build_top(GridEntries& entries, const GridOptions& options, const Executor* executor)
+{
+    TopGrid top;
+    GridStructure& structure = top.structure;
+    const Beginning begun = begin(entries, structure);
+    std::unique_ptr<GridNode> node =
+        build_node(begun.bounds, entries, begun.chosen, options.density, most_references, options, 1, executor);
+    top.lists = std::move(node->lists);
+    top.allowance = most_references * static_cast<double>(begun.chosen.size()) /
+                    static_cast<double>(std::max<std::size_t>(top.lists.entries.size(), 1));
+    structure.grids.push_back(node->grid);
+    structure.cells.resize(node->grid.cells());
+    structure.depth = 1;
+    for (std::uint32_t cell = 0; cell < node->grid.cells(); ++cell)
+        if (!top.lists.of(cell).empty()) structure.cells[cell] = CellWord::list(cell);
+    Filling filling;
+    structure.large = reserve_list(begun.large, entries, filling.counts);
+    fill(structure, begun, entries, filling, executor);
+    return top;
+}
+
+GridStructure build_voxel(const TopGrid& top, std::uint32_t cell, const GridEntries& entries,
+                          const GridOptions& options)
+{
+    const Grid& grid = top.structure.grids[0];
+    const std::span<const std::uint32_t> listed = top.lists.of(cell);
+    std::unique_ptr<GridNode> node;
+    if (options.depth > 1 && listed.size() > static_cast<std::size_t>(options.max_list))
+        node = build_child(grid, cell, listed, entries, options, options.depth - 1, top.allowance);
+    if (!node) node = one_cell(cell_box(grid, cell), listed);
+    GridStructure structure;
+    structure.largest = top.structure.largest;
+    structure.blur = top.structure.blur;
+    structure.pad = top.structure.pad;
+    Filling filling;
+    lay_out(*node, entries, 1, structure, filling);
+    fill(structure, {}, entries, filling, nullptr);
+    return structure;
+}
 
 std::uint64_t GridStructure::bytes() const
 {

@@ -20,18 +20,24 @@ struct GridOptions {
 /// The shape that the user chose, defaults filled in.
 GridOptions grid_options(const StrategyOptions& options);
 
-/// Primitives of groups that are carried, in the root system.
-template <typename Real>
-GridEntries make_entries(const RootGeometry<Real>& geometry, const PrimitiveList& primitives, const Executor* executor);
-
-/// Appends a triangle; all of them must come before the first quadric.
-void add_triangle(GridEntries& entries, const RootTriangle<float>& triangle, PrimitiveId id, bool transmits);
-void add_quadric(GridEntries& entries, const RootQuadric& quadric);
-
 /// Builds the recursive grid over entries, in their own system, anew. The result does not depend on the executor.
 /// executor    null: on this thread
 /// peak_bytes  raised to the most memory held at any time while building, entries and result included
 GridStructure build_grid(GridEntries entries, const GridOptions& options, const Executor* executor,
                          std::uint64_t& peak_bytes);
+
+/// The top grid of build_grid alone. In its structure stands only what is kept out of the cells; the word of a cell
+/// where something is listed is list(cell).
+struct TopGrid {
+    GridStructure structure;
+    CellLists lists;         ///< by cell
+    double allowance = 0.0;  ///< references that a reference may become in subgrids
+};
+TopGrid build_top(GridEntries& entries, const GridOptions& options, const Executor* executor);
+
+/// What build_grid puts into a cell of the top grid, as a structure of its own in the same system: a subgrid, or one
+/// cell where there are too few entries or nothing is gained. Any number of threads.
+GridStructure build_voxel(const TopGrid& top, std::uint32_t cell, const GridEntries& entries,
+                          const GridOptions& options);
 
 }  // namespace firstray

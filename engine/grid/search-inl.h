@@ -8,6 +8,7 @@
 
 #include <chrono>
 
+#include "engine/grid/entries.h"
 #include "engine/grid/search.h"
 #include "engine/grid/traverse-inl.h"
 #include "engine/primitive/intersect.h"
@@ -249,6 +250,14 @@ struct RootPrimitives {
     {
         if constexpr (std::is_same_v<Real, float>)
             return intersect_precisely(pack.triangle(lane), ray, precision, t_last);
+        else
+            return intersect_precisely(geometry.triangle(id), ray, precision, t_last);
+    }
+    /// The same of an entry that no pack holds.
+    TriangleHit<Real> triangle_of(const GridEntries& entries, std::uint32_t entry, PrimitiveId id, Real t_last) const
+    {
+        if constexpr (std::is_same_v<Real, float>)
+            return intersect_precisely(entries.triangles[entry], ray, precision, t_last);
         else
             return intersect_precisely(geometry.triangle(id), ray, precision, t_last);
     }

@@ -3,12 +3,12 @@
 #include <algorithm>
 
 #include "engine/grid/build.h"
+#include "engine/grid/entries.h"
 #include "engine/grid/outline.h"
 #include "engine/grid/search.h"
 
 namespace firstray {
 namespace {
-
 
 template <typename Real>
 class GridStrategy final : public Strategy<Real> {
@@ -20,8 +20,8 @@ public:
         structure_ = {};  // given back first: the old and the new one are never held together
         geometry_.update(pose, options_.executor);
         std::uint64_t built_bytes = 0;
-        structure_ = build_grid(make_entries(geometry_, geometry_.visible(), options_.executor),
-                                grid_options(options_), options_.executor, built_bytes);
+        structure_ = build_grid(make_entries(geometry_, geometry_.visible(), options_.executor), grid_options(options_),
+                                options_.executor, built_bytes);
         peak_bytes_ = std::max(peak_bytes_, built_bytes + geometry_.bytes());
     }
     void closest(RayTile<Real>& rays) const override { search_closest(target(), rays); }

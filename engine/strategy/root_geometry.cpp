@@ -20,6 +20,9 @@ RootGeometry<Real>::RootGeometry(const Scene& scene)
       corners_(scene.primitive_count()),
       transmits_(scene.primitive_count()),
       carried_(scene.groups.size()),
+      stood_(scene.groups.size()),
+      is_there_(scene.groups.size()),
+      moved_(scene.groups.size()),
       was_visible_(scene.groups.size())
 {
     vertices_.resize(scene.positions.size());
@@ -32,12 +35,6 @@ RootGeometry<Real>::RootGeometry(const Scene& scene)
                                                    : glm::uvec3(index - group.triangles + group.first_quadric);
         }
     }
-}
-
-template <typename Real>
-bool RootGeometry<Real>::moves(std::uint32_t group) const
-{
-    return scene_.groups[group].node != 0 || scene_.groups[group].deforming;
 }
 
 template <typename Real>
@@ -66,15 +63,25 @@ void RootGeometry<Real>::update(const Pose& pose, const Executor* executor)
     else
         for (std::size_t i = 0; i < to_carry.size(); ++i) carry_one(i);
     list_visible(pose);
-    pose_ = nullptr;
 }
 
 template <typename Real>
 void RootGeometry<Real>::update_on_touch(const Pose& pose)
 {
+    const bool is_first = pose_ == nullptr;
+    for (std::uint32_t i = 0; i < scene_.groups.size(); ++i) {
+        const Group& group = scene_.groups[i];
+        const Transform& stands = pose.root_from_node[group.node];
+        const bool is_there = pose.is_visible(group);
+        const bool same = stood_[i].linear == stands.linear && stood_[i].offset == stands.offset &&
+                          is_there_[i] == is_there && !(group.deforming && time_ != pose.time);
+        moved_[i] = is_first || !same;
+        is_there_[i] = is_there;
+        stood_[i] = stands;
+        if (moved_[i]) carried_[i].store(Carried::no, std::memory_order_relaxed);
+    }
     pose_ = &pose;
-    for (std::uint32_t group = 0; group < scene_.groups.size(); ++group)
-        if (moves(group)) carried_[group].store(Carried::no, std::memory_order_relaxed);
+    time_ = pose.time;
 }
 
 template <typename Real>
@@ -98,7 +105,14 @@ RootTriangle<Real> RootGeometry<Real>::carried_alone(PrimitiveId id) const
 template <typename Real>
 RootQuadric RootGeometry<Real>::quadric_of(std::uint32_t group, PrimitiveId id) const
 {
-    if (touch(group)) return quadric(id);
+    touch(group);
+    return quadric_alone(group, id);
+}
+
+template <typename Real>
+RootQuadric RootGeometry<Real>::quadric_alone(std::uint32_t group, PrimitiveId id) const
+{
+    if (carried_[group].load(std::memory_order_acquire) == Carried::yes) return quadric(id);
     return place_quadric(scene_.quadrics[corners_[id].x], pose_->root_from_node[scene_.groups[group].node], id,
                          transmits(id));
 }

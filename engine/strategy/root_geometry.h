@@ -26,11 +26,15 @@ public:
 
     explicit RootGeometry(const Scene& scene);
 
-    /// Carries every visible group and lists what is visible. Runs alone. The pose is not kept.
+    /// Carries every visible group and lists what is visible. Runs alone.
     void update(const Pose& pose, const Executor* executor);
 
-    /// Carries nothing: that is left to touch(). Runs alone. The pose must live until the next update.
+    /// Carries nothing: that is left to touch(). Groups that stand where they stood stay carried. Runs alone. The pose
+    /// must live until the next update.
     void update_on_touch(const Pose& pose);
+
+    /// Whether a group stands, or deforms, otherwise than before the last update, or was or is hidden.
+    bool has_moved(std::uint32_t group) const { return moved_[group] != 0; }
 
     /// Has a visible group carried, by the first thread that asks; any number of threads. False while another thread is
     /// at it: nobody waits, carried() makes single primitives.
@@ -61,6 +65,13 @@ public:
     }
     RootQuadric quadric_of(std::uint32_t group, PrimitiveId id) const;
 
+    /// The same, and the group is left as it is.
+    RootTriangle<Real> triangle_alone(std::uint32_t group, PrimitiveId id) const
+    {
+        return carried_[group].load(std::memory_order_acquire) == Carried::yes ? triangle(id) : carried_alone(id);
+    }
+    RootQuadric quadric_alone(std::uint32_t group, PrimitiveId id) const;
+
     bool transmits(PrimitiveId id) const { return transmits_[id] != 0; }
     std::uint64_t bytes() const;
 
@@ -71,7 +82,6 @@ private:
     void carry(const Pose& pose, std::uint32_t group) const;
     RootTriangle<Real> carried_alone(PrimitiveId id) const;
     void list_visible(const Pose& pose);
-    bool moves(std::uint32_t group) const;
 
     const Scene& scene_;
     const Pose* pose_ = nullptr;               ///< for groups that are carried when touched
@@ -80,6 +90,9 @@ private:
     std::vector<glm::uvec3> corners_;  ///< by PrimitiveId: of a triangle, into vertices_; of a quadric, x: into placed_
     std::vector<std::uint8_t> transmits_;                ///< by PrimitiveId
     mutable std::vector<std::atomic<Carried>> carried_;  ///< by group
+    std::vector<Transform> stood_;                       ///< by group: root_from_node at the last update
+    std::vector<std::uint8_t> is_there_, moved_;         ///< by group: visible at the last update; has_moved
+    double time_ = 0.0;                                  ///< of the last update
     std::vector<std::uint8_t> was_visible_;              ///< by group, at the last update
     PrimitiveList visible_;
 };

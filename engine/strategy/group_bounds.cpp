@@ -1,0 +1,86 @@
+#include "engine/strategy/group_bounds.h"
+
+#include <cmath>
+
+#include "engine/primitive/quadric.h"
+#include "engine/scene/pose.h"
+
+namespace firstray {
+namespace {
+
+/// Poses of the animation at which moving things are looked up.
+constexpr int sampled_poses = 32;
+
+/// A grid over the scenery may have at most so many times the scenery's own surface.
+constexpr float most_room = 1.5f;
+
+bool is_finite(const glm::dvec3& p)
+{
+    return std::isfinite(p.x + p.y + p.z);
+}
+
+float half_area(const glm::vec3& d)
+{
+    return d.x * d.y + d.y * d.z + d.z * d.x;
+}
+
+}  // namespace
+
+std::vector<DAabb> group_bounds(const Scene& scene)
+{
+    std::vector<DAabb> bounds;
+    for (const Group& group : scene.groups) {
+        DAabb& box = bounds.emplace_back();
+        const auto grow = [&](const glm::dvec3& p) {
+            if (is_finite(p)) box.grow(p);
+        };
+        if (group.deforming) {
+            for (std::uint32_t i = 0; i < group.triangles; ++i) {
+                const DeformingTriangle& triangle = scene.deforming[group.first_deforming + i];
+                for (std::uint32_t key = 0; key < triangle.keys; ++key)
+                    for (const glm::dvec3& p : scene.deforming_keys[triangle.first_key + key].position) grow(p);
+            }
+        } else {
+            for (std::uint32_t i = 0; i < group.vertices; ++i) grow(scene.positions[group.first_vertex + i]);
+        }
+        for (std::uint32_t i = 0; i < group.quadrics; ++i)
+            box.grow(place_quadric(scene.quadrics[group.first_quadric + i], {}, 0, false).bounds);
+    }
+    return bounds;
+}
+
+DAabb transformed(const DAabb& box, const Transform& transform)
+{
+    const glm::dvec3 centre = transform.point((box.lo + box.hi) * 0.5), half = box.size() * 0.5;
+    DAabb result;
+    for (int axis = 0; axis < 3; ++axis) {
+        double reach = 0.0;
+        for (int j = 0; j < 3; ++j) reach += std::abs(transform.linear[j][axis]) * half[j];
+        result.lo[axis] = centre[axis] - reach;
+        result.hi[axis] = centre[axis] + reach;
+    }
+    return result;
+}
+
+Aabb room_of_movers(const Scene& scene, std::span<const DAabb> bounds)
+{
+    Aabb room;
+    for (int i = 0; i < sampled_poses && scene.groups.size() > 1; ++i) {
+        const Pose sample = pose(scene, scene.start + (scene.end - scene.start) * i / (sampled_poses - 1));
+        for (std::size_t g = 1; g < scene.groups.size(); ++g) {
+            if (!sample.is_visible(scene.groups[g]) || bounds[g].empty()) continue;
+            const DAabb box = transformed(bounds[g], sample.root_from_node[scene.groups[g].node]);
+            room.grow(Aabb{glm::vec3(box.lo), glm::vec3(box.hi)});
+        }
+    }
+    return room;
+}
+
+Aabb room_for_movers(const Scene& scene, std::span<const DAabb> bounds, const Aabb& scenery)
+{
+    Aabb room = room_of_movers(scene, bounds);
+    room.grow(scenery);
+    return half_area(room.size()) <= most_room * half_area(scenery.size()) ? room : Aabb{};
+}
+
+}  // namespace firstray

@@ -1,0 +1,68 @@
+#include "lazy/group_grids.h"
+
+#include <chrono>
+#include <new>
+
+namespace firstray::lazy {
+namespace {
+
+/// What a group's entries and top grid may hold, guessed before they are made.
+std::uint64_t guessed_bytes(std::size_t primitives)
+{
+    return primitives * (sizeof(Aabb) + sizeof(RootTriangle<float>) + 16) + sizeof(LazyGrid) + 1024;
+}
+
+}  // namespace
+
+template <typename Real>
+GroupGrids<Real>::GroupGrids(const Scene& scene, const RootGeometry<Real>& geometry, const GridOptions& options,
+                             Ledger& ledger)
+    : scene_(scene),
+      geometry_(geometry),
+      options_(options),
+      ledger_(ledger),
+      grids_(std::make_unique<MadeOnce<LazyGrid>[]>(scene.groups.size()))
+{
+}
+
+template <typename Real>
+const LazyGrid* GroupGrids<Real>::enter_first(std::uint32_t group) const
+{
+    return grids_[group].get_or_make([&] { return make(group); });
+}
+
+template <typename Real>
+std::unique_ptr<LazyGrid> GroupGrids<Real>::make(std::uint32_t group) const
+{
+    using Clock = std::chrono::steady_clock;
+    const Clock::time_point start = Clock::now();
+    const std::uint64_t guess = guessed_bytes(scene_.groups[group].primitives());
+    if (!ledger_.charge(guess)) return nullptr;
+    std::unique_ptr<LazyGrid> made;
+    try {
+        geometry_.touch(group);  // nobody else does
+        PrimitiveList primitives;
+        geometry_.list(group, primitives);
+        made = std::make_unique<LazyGrid>(make_entries(geometry_, primitives, nullptr), options_, ledger_, nullptr);
+    } catch (const std::bad_alloc&) {
+        ledger_.give_back(guess);
+        return nullptr;
+    }
+    ledger_.correct(guess, made->bytes());
+    ledger_.note_built(static_cast<std::uint64_t>((Clock::now() - start).count()));
+    return made;
+}
+
+template <typename Real>
+std::uint64_t GroupGrids<Real>::drop(std::uint32_t group)
+{
+    const std::unique_ptr<LazyGrid> taken = grids_[group].take();
+    if (!taken) return 0;
+    ledger_.give_back(taken->bytes());
+    return taken->counts().built;
+}
+
+template class GroupGrids<float>;
+template class GroupGrids<double>;
+
+}  // namespace firstray::lazy

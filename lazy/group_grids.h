@@ -1,0 +1,43 @@
+#pragma once
+#include <memory>
+#include <span>
+
+#include "engine/grid/build.h"
+#include "engine/strategy/root_geometry.h"
+#include "lazy/lazy_grid.h"
+#include "lazy/ledger.h"
+
+namespace firstray::lazy {
+
+/// A lazy grid for each group that moves. Not even a vertex of a group is carried before the first ray enters its box.
+template <typename Real>
+class GroupGrids {
+public:
+    /// geometry, ledger  must outlive this
+    GroupGrids(const Scene& scene, const RootGeometry<Real>& geometry, const GridOptions& options, Ledger& ledger);
+
+    /// A group's grid, made now if it was not; null while another thread makes it, or where there is no memory for it:
+    /// then the group's primitives are to be tested one by one. Any number of threads.
+    const LazyGrid* grid(std::uint32_t group) const
+    {
+        const LazyGrid* made = grids_[group].get();
+        return made ? made : enter_first(group);
+    }
+    /// The same, and nothing is made.
+    const LazyGrid* made(std::uint32_t group) const { return grids_[group].get(); }
+
+    /// Gives up a group's grid; returns how many voxels of it were built. Runs alone.
+    std::uint64_t drop(std::uint32_t group);
+
+private:
+    const LazyGrid* enter_first(std::uint32_t group) const;
+    std::unique_ptr<LazyGrid> make(std::uint32_t group) const;
+
+    const Scene& scene_;
+    const RootGeometry<Real>& geometry_;
+    GridOptions options_;
+    Ledger& ledger_;
+    std::unique_ptr<MadeOnce<LazyGrid>[]> grids_;  ///< by group
+};
+
+}  // namespace firstray::lazy

@@ -1,0 +1,67 @@
+#include "lazy/lazy_grid.h"
+
+#include <chrono>
+#include <new>
+
+namespace firstray::lazy {
+namespace {
+
+/// What building a voxel may hold, guessed before it is built: packs, their boxes, and cells of a subgrid.
+std::uint64_t guessed_bytes(std::size_t listed)
+{
+    return 2 * listed * (sizeof(TrianglePack) / pack_size) + 2 * sizeof(TrianglePack);
+}
+
+}  // namespace
+
+LazyGrid::LazyGrid(GridEntries entries, const GridOptions& options, Ledger& ledger, const Executor* executor)
+    : options_(options),
+      entries_(std::move(entries)),
+      top_(build_top(entries_, options, executor)),
+      voxels_(std::make_unique<MadeOnce<GridStructure>[]>(top_.structure.cells.size())),
+      ledger_(ledger)
+{
+    held_ = entries_.bytes() + top_.structure.bytes() + top_.lists.bytes() +
+            top_.structure.cells.size() * sizeof(MadeOnce<GridStructure>);
+}
+
+LazyGrid::~LazyGrid()
+{
+    for (std::size_t cell = 0; cell < top_.structure.cells.size(); ++cell)
+        if (const GridStructure* built = voxels_[cell].get()) ledger_.give_back(built->bytes() + sizeof *built);
+}
+
+const GridStructure* LazyGrid::enter_first(std::uint32_t cell) const
+{
+    return voxels_[cell].get_or_make([&] { return build(cell); });
+}
+
+std::unique_ptr<GridStructure> LazyGrid::build(std::uint32_t cell) const
+{
+    using Clock = std::chrono::steady_clock;
+    const Clock::time_point start = Clock::now();
+    const std::uint64_t guess = guessed_bytes(listed(cell).size());
+    if (!ledger_.charge(guess)) return nullptr;
+    std::unique_ptr<GridStructure> built;
+    try {
+        built = std::make_unique<GridStructure>(build_voxel(top_, cell, entries_, options_));
+    } catch (const std::bad_alloc&) {
+        ledger_.give_back(guess);  // the list is searched instead: slower, never a hole
+        return nullptr;
+    }
+    ledger_.correct(guess, built->bytes() + sizeof *built);
+    ledger_.note_built(static_cast<std::uint64_t>((Clock::now() - start).count()));
+    return built;
+}
+
+VoxelCounts LazyGrid::counts() const
+{
+    VoxelCounts counts;
+    for (std::uint32_t cell = 0; cell < top_.structure.cells.size(); ++cell) {
+        counts.filled += !listed(cell).empty();
+        counts.built += voxels_[cell].get() != nullptr;
+    }
+    return counts;
+}
+
+}  // namespace firstray::lazy

@@ -1,0 +1,52 @@
+#pragma once
+#include <atomic>
+#include <cstdint>
+#include <memory>
+
+namespace firstray::lazy {
+
+/// Something that the first thread to ask for it makes; the others do not wait but do without. One atomic word:
+/// not made -> being made -> made (a pointer), or refused until the next reset.
+template <typename T>
+class MadeOnce {
+public:
+    MadeOnce() = default;
+    MadeOnce(const MadeOnce&) = delete;
+    MadeOnce& operator=(const MadeOnce&) = delete;
+    ~MadeOnce() { delete get(); }
+
+    /// What was made, or null. Any number of threads.
+    const T* get() const
+    {
+        const std::uintptr_t word = word_.load(std::memory_order_acquire);  // pairs with the store that publishes
+        return word > refused ? reinterpret_cast<const T*>(word) : nullptr;
+    }
+
+    /// The same, but makes it first where nobody has begun to. Any number of threads.
+    /// make  returns a unique_ptr to what was made, null to refuse; must not throw
+    template <typename Make>
+    const T* get_or_make(const Make& make)
+    {
+        if (const T* made = get()) return made;
+        std::uintptr_t expected = not_made;
+        if (!word_.compare_exchange_strong(expected, being_made, std::memory_order_acquire)) return get();
+        std::unique_ptr<T> fresh = make();
+        const T* const made = fresh.release();
+        word_.store(made ? reinterpret_cast<std::uintptr_t>(made) : refused, std::memory_order_release);
+        return made;
+    }
+
+    /// Takes out what was made, or nothing, and forgets a refusal. Runs alone.
+    std::unique_ptr<T> take()
+    {
+        std::unique_ptr<T> made(const_cast<T*>(get()));
+        word_.store(not_made, std::memory_order_relaxed);
+        return made;
+    }
+
+private:
+    static constexpr std::uintptr_t not_made = 0, being_made = 1, refused = 2;
+    std::atomic<std::uintptr_t> word_{not_made};
+};
+
+}  // namespace firstray::lazy

@@ -1,0 +1,154 @@
+// How a ray finds its way through grids that come into being as it goes. Included once per instruction set.
+#if defined(FIRSTRAY_LAZY_SEARCH_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef FIRSTRAY_LAZY_SEARCH_INL_H_
+#undef FIRSTRAY_LAZY_SEARCH_INL_H_
+#else
+#define FIRSTRAY_LAZY_SEARCH_INL_H_
+#endif
+
+#include "engine/grid/box_search-inl.h"
+#include "lazy/search.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace firstray::lazy {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+using namespace firstray::HWY_NAMESPACE;
+
+/// A voxel of a lazy grid, by its cell.
+struct LazyVoxel {
+    std::uint32_t cell;
+};
+
+class LazyResolver {
+public:
+    explicit LazyResolver(const GridStructure& top) : cells_(top.cells.data()) {}
+    CellWord word(std::int32_t cell) const { return cells_[cell]; }
+    LazyVoxel voxel(CellWord /*word*/, std::int32_t cell) const { return {static_cast<std::uint32_t>(cell)}; }
+
+private:
+    const CellWord* HWY_RESTRICT cells_;
+};
+
+/// The search of a lazy grid: that of its top grid's structure first, then of those of the voxels it enters, which have
+/// the same system and pads.
+template <class Quest>
+struct LazySearch : Search<Quest, RootPrimitives<typename Quest::Real>> {
+    using Base = Search<Quest, RootPrimitives<typename Quest::Real>>;
+    using Base::primitives;
+    using Base::quest;
+
+    const LazyGrid* grid;  ///< null where only boxes are looked for
+
+    LazySearch(Quest& q, const RootPrimitives<typename Quest::Real>& p, const GridStructure& top, const LazyGrid* lazy)
+        : Base{q, p, &top}, grid(lazy)
+    {
+    }
+
+    HWY_INLINE bool visit(const LazyVoxel& voxel, float t_enter, float t_leave, const LazyResolver&)
+    {
+        const GridStructure* built = grid->voxel(voxel.cell);
+        if (HWY_UNLIKELY(!built)) return unbuilt(voxel.cell);
+        this->structure = built;
+        const Grid& top = built->grids[0];
+        if (built->cells.size() == 1) return Base::list(built->lists[0], t_enter);
+        return Base::enter(top, t_enter, t_leave, EagerResolver(*built));
+    }
+    template <class Voxel, class Resolver>
+    HWY_INLINE bool visit(const Voxel& voxel, float t_enter, float t_leave, const Resolver& resolve)
+    {
+        return Base::visit(voxel, t_enter, t_leave, resolve);
+    }
+
+    /// Tests what a cell lists, one by one.
+    HWY_NOINLINE bool unbuilt(std::uint32_t cell)
+    {
+        const GridEntries& entries = grid->entries();
+        for (const std::uint32_t entry : grid->listed(cell)) {
+            const PrimitiveId id = entries.ids[entry] & ~transmitting_bit;
+            quest.cost.add_quadric();
+            if (!entries.is_triangle(entry)) {
+                const auto t = primitives.quadric(id, quest.mask);
+                if (std::isfinite(t) && this->offer(t, 0, 0, id)) return true;
+                continue;
+            }
+            if (id == quest.hit.id || !admits(quest.mask, (entries.ids[entry] & transmitting_bit) != 0)) continue;
+            const auto found = primitives.triangle_of(entries, entry, id, quest.hit.t);
+            if (found.hit && this->offer(found.t, found.u, found.v, id)) return true;
+        }
+        return false;
+    }
+};
+
+/// What the items are: see BoxSearch.
+template <typename Real>
+struct World {
+    const SearchTarget<Real>& target;
+
+    const BoxedGrid* supergrid(std::uint32_t) const { return nullptr; }
+
+    template <class Quest>
+    HWY_NOINLINE bool enter(std::uint32_t group, Quest& quest) const
+    {
+        const LazyGrid* grid = target.groups->grid(group);
+        if (HWY_UNLIKELY(!grid)) return one_by_one(group, quest);
+        const RootPrimitives<Real> primitives{*target.geometry, quest.ray, target.precision};
+        LazySearch<Quest> search(quest, primitives, grid->top(), grid);
+        const float loose = target.precision == Precision::fast ? 1.0f : 0.0f;
+        return search.begin(glm::dvec3(quest.ray.origin), glm::dvec3(quest.ray.direction), loose) &&
+               (search.large() ||
+                traverse(grid->top().grids[0], search.walk, 0.0f, search.stop, LazyResolver(grid->top()), search));
+    }
+
+    /// Tests all primitives of a group.
+    template <class Quest>
+    HWY_NOINLINE bool one_by_one(std::uint32_t group, Quest& quest) const
+    {
+        const Group& g = target.scene->groups[group];
+        for (PrimitiveId id = g.first; id < g.first + g.primitives(); ++id) {
+            quest.cost.add_quadric();
+            TriangleHit<Real> found;
+            if (id - g.first >= g.triangles) {
+                found.t = intersect_rounded(target.geometry->quadric_alone(group, id), quest.ray, quest.mask);
+                found.hit = std::isfinite(found.t);
+            } else if (id != quest.hit.id && admits(quest.mask, target.geometry->transmits(id))) {
+                found = intersect_precisely(target.geometry->triangle_alone(group, id), quest.ray, target.precision,
+                                            quest.hit.t);
+            }
+            if (found.hit && quest.take(found.t, found.u, found.v, id) && Quest::query == Query::any) return true;
+        }
+        return false;
+    }
+};
+
+/// A ray's whole search.
+template <typename Real>
+struct Searcher {
+    const SearchTarget<Real>& target;
+    Visits& visits;
+
+    template <class Quest>
+    void operator()(Quest& quest) const
+    {
+        visits.begin_ray(target.scene->groups.size());
+        if (target.outer && search(*target.outer, nullptr, quest)) return;
+        if (target.scenery) search(*target.around, target.scenery, quest);
+    }
+
+private:
+    template <class Quest>
+    bool search(const BoxedGrid& grid, const LazyGrid* lazy, Quest& quest) const
+    {
+        const RootPrimitives<Real> primitives{*target.geometry, quest.ray, target.precision};
+        LazySearch<Quest> among(quest, primitives, grid.structure, lazy);
+        const World<Real> world{target};
+        return BoxSearch(quest, world, visits, among, LazyResolver(grid.structure))
+            .run(grid, target.precision == Precision::fast ? 1.0f : 0.0f);
+    }
+};
+
+}  // namespace HWY_NAMESPACE
+}  // namespace firstray::lazy
+HWY_AFTER_NAMESPACE();
+
+#endif  // include guard per instruction set
