@@ -43,7 +43,8 @@ std::unique_ptr<LazyGrid> GroupGrids<Real>::make(std::uint32_t group) const
         geometry_.touch(group);  // nobody else does
         PrimitiveList primitives;
         geometry_.list(group, primitives);
-        made = std::make_unique<LazyGrid>(make_entries(geometry_, primitives, nullptr), options_, ledger_, nullptr);
+        made = std::make_unique<LazyGrid>(make_entries(geometry_, primitives, nullptr), shape_of(primitives.size()),
+                                          ledger_, nullptr);
     } catch (const std::bad_alloc&) {
         ledger_.give_back(guess);
         return nullptr;
@@ -51,6 +52,33 @@ std::unique_ptr<LazyGrid> GroupGrids<Real>::make(std::uint32_t group) const
     ledger_.correct(guess, made->bytes());
     ledger_.note_built(static_cast<std::uint64_t>((Clock::now() - start).count()));
     return made;
+}
+
+template <typename Real>
+const LazyGrid& GroupGrids<Real>::gather(const PrimitiveList& primitives, const Executor* executor)
+{
+    return *grids_[everything_that_moves].get_or_make([&] {
+        auto grid =
+            std::make_unique<LazyGrid>(make_entries(geometry_, primitives, executor), options_, ledger_, executor);
+        ledger_.correct(0, grid->bytes());
+        return grid;
+    });
+}
+
+/// A group that would not be split as a voxel is one voxel: its packs have boxes, which are grid enough.
+template <typename Real>
+GridOptions GroupGrids<Real>::shape_of(std::size_t primitives) const
+{
+    GridOptions shape = options_;
+    if (primitives <= static_cast<std::size_t>(shape.max_list)) shape.density = 1e-30f;
+    return shape;
+}
+
+template <typename Real>
+std::uint64_t GroupGrids<Real>::keep(std::uint32_t group)
+{
+    LazyGrid* grid = grids_[group].get_alone();
+    return grid ? grid->keep() : 0;
 }
 
 template <typename Real>

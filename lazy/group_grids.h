@@ -9,6 +9,9 @@
 
 namespace firstray::lazy {
 
+/// The number under which one grid holds all groups that move.
+inline constexpr std::uint32_t everything_that_moves = 0;
+
 /// A lazy grid for each group that moves. Not even a vertex of a group is carried before the first ray enters its box.
 template <typename Real>
 class GroupGrids {
@@ -26,12 +29,19 @@ public:
     /// The same, and nothing is made.
     const LazyGrid* made(std::uint32_t group) const { return grids_[group].get(); }
 
+    /// LazyGrid::keep() of a group's grid; 0 where there is none. Runs alone.
+    std::uint64_t keep(std::uint32_t group);
+
+    /// Makes the grid of everything that moves, from primitives that are carried; it has none. Runs alone.
+    const LazyGrid& gather(const PrimitiveList& primitives, const Executor* executor);
+
     /// Gives up a group's grid; returns how many voxels of it were built. Runs alone.
     std::uint64_t drop(std::uint32_t group);
 
 private:
     const LazyGrid* enter_first(std::uint32_t group) const;
     std::unique_ptr<LazyGrid> make(std::uint32_t group) const;
+    GridOptions shape_of(std::size_t primitives) const;
 
     const Scene& scene_;
     const RootGeometry<Real>& geometry_;

@@ -22,7 +22,7 @@ public:
           shape_(grid_options(options)),
           bounds_(group_bounds(scene)),
           geometry_(scene),
-          ledger_(own.budget),
+          ledger_(options.structure_budget),
           groups_(scene, geometry_, shape_, ledger_)
     {
     }
@@ -33,14 +33,18 @@ public:
         ledger_.begin_frame();
         dropped_ = 0;
         if (!is_built_) build_scenery();
-        for (std::uint32_t group = 1; group < scene_.groups.size(); ++group)
-            if (geometry_.has_moved(group)) dropped_ += groups_.drop(group);
-        place_groups(pose);
-        kept_ = count_built();
+        const bool moved = drop_moved();
+        if (own_.top == LazyTop::groups)
+            place_groups(pose);
+        else if (moved)
+            place_primitives(pose);
+        kept_ = scenery_ ? scenery_->keep() : 0;
+        for (const std::uint32_t item : there_) kept_ += groups_.keep(item);
     }
     void closest(RayTile<Real>& rays) const override { search_closest(target(), rays); }
     void occluded(RayTile<Real>& rays) const override { search_any(target(), rays); }
     StructureReport report() const override;
+    std::vector<StructureBox> outline() const override;
 
 private:
     SearchTarget<Real> target() const
@@ -50,8 +54,10 @@ private:
                 &groups_};
     }
     void build_scenery();
+    bool drop_moved();
     void place_groups(const Pose& pose);
-    std::uint64_t count_built() const;
+    void place_primitives(const Pose& pose);
+    void place(std::span<const Item> items);
 
     const Scene& scene_;
     StrategyOptions options_;
@@ -65,8 +71,8 @@ private:
     std::unique_ptr<LazyGrid> scenery_;  ///< null where nothing is static
     BoxedGrid around_;                   ///< the scenery's top grid, with boxes of groups in it
     BoxedGrid outer_;
-    std::vector<std::uint32_t> there_;  ///< groups that are visible in this frame, without the scenery
-    std::uint64_t kept_ = 0, dropped_ = 0;
+    std::vector<std::uint32_t> there_;  ///< numbers of the items in this frame
+    std::uint64_t kept_ = 0, dropped_ = 0, moving_ = 0;
 };
 
 template <typename Real>
@@ -85,39 +91,74 @@ void LazyStrategy<Real>::build_scenery()
     around_.structure = scenery_->top();
 }
 
+/// Gives up what was built of groups that stand otherwise now; returns whether there are any.
+template <typename Real>
+bool LazyStrategy<Real>::drop_moved()
+{
+    bool moved = false;
+    for (std::uint32_t group = 1; group < scene_.groups.size(); ++group) {
+        if (!geometry_.has_moved(group)) continue;
+        dropped_ += groups_.drop(group);
+        moved = true;
+    }
+    if (moved) dropped_ += groups_.drop(everything_that_moves);
+    return moved;
+}
+
+/// Puts the boxes of groups where they are now.
 template <typename Real>
 void LazyStrategy<Real>::place_groups(const Pose& pose)
 {
     there_.clear();
-    std::vector<Transform> places;
     double largest = static_cast<double>(around_.structure.largest);
     for (std::uint32_t group = 1; group < scene_.groups.size(); ++group) {
         if (!pose.is_visible(scene_.groups[group]) || bounds_[group].empty()) continue;
         there_.push_back(group);
-        const Transform& place = pose.root_from_node[scene_.groups[group].node];
-        const DAabb box = transformed(bounds_[group], place);
+        const DAabb box = transformed(bounds_[group], pose.root_from_node[scene_.groups[group].node]);
         for (int axis = 0; axis < 3; ++axis)
             largest = std::max({largest, std::abs(box.lo[axis]), std::abs(box.hi[axis])});
     }
     const double wide = std::max(largest * static_cast<double>(box_pad_factor), 1e-30);
-    std::vector<Item> among, outside;
+    std::vector<Item> items;
     for (const std::uint32_t group : there_) {
-        const Transform& place = pose.root_from_node[scene_.groups[group].node];
-        const Item item = make_item(group, inverse(place), place, bounds_[group], wide);
-        (scenery_ && around_.has_room_for(item) ? among : outside).push_back(item);
+        const Transform& root_from_node = pose.root_from_node[scene_.groups[group].node];
+        items.push_back(make_item(group, inverse(root_from_node), root_from_node, bounds_[group], wide));
     }
-    around_.remove_items();
-    if (!among.empty()) around_.insert(among);
-    outer_ = outside.empty() ? BoxedGrid{} : grid_of_items(outside, false);
+    place(items);
+}
+
+/// Carries everything that moves and lists it in one grid.
+template <typename Real>
+void LazyStrategy<Real>::place_primitives(const Pose& pose)
+{
+    there_.clear();
+    PrimitiveList primitives;
+    for (std::uint32_t group = 1; group < scene_.groups.size(); ++group) {
+        if (!pose.is_visible(scene_.groups[group])) continue;
+        geometry_.touch(group);
+        geometry_.list(group, primitives);
+    }
+    std::vector<Item> items;
+    if (primitives.size() > 0) {
+        there_.push_back(everything_that_moves);
+        moving_ = primitives.size();
+        const LazyGrid& grid = groups_.gather(primitives, options_.executor);
+        const GridStructure& top = grid.top();
+        const DAabb box{top.grids[0].lo, top.grids[0].hi()};
+        const double largest = static_cast<double>(std::max(top.largest, around_.structure.largest));
+        items.push_back(make_item(everything_that_moves, {}, {}, box, largest * static_cast<double>(box_pad_factor)));
+    }
+    place(items);
 }
 
 template <typename Real>
-std::uint64_t LazyStrategy<Real>::count_built() const
+void LazyStrategy<Real>::place(std::span<const Item> items)
 {
-    std::uint64_t built = scenery_ ? scenery_->counts().built : 0;
-    for (const std::uint32_t group : there_)
-        if (const LazyGrid* grid = groups_.made(group)) built += grid->counts().built;
-    return built;
+    std::vector<Item> among, outside;
+    for (const Item& item : items) (scenery_ && around_.has_room_for(item) ? among : outside).push_back(item);
+    around_.remove_items();
+    if (!among.empty()) around_.insert(among);
+    outer_ = outside.empty() ? BoxedGrid{} : grid_of_items(outside, false);
 }
 
 template <typename Real>
@@ -146,7 +187,7 @@ StructureReport LazyStrategy<Real>::report() const
     if (scenery_) add(*scenery_);
     report.primitives = scene_.groups[0].primitives();
     for (const std::uint32_t group : there_) {
-        report.primitives += scene_.groups[group].primitives();
+        report.primitives += group == everything_that_moves ? moving_ : scene_.groups[group].primitives();
         if (const LazyGrid* grid = groups_.made(group)) add(*grid);
     }
     report.kept_voxels = kept_;
@@ -157,6 +198,26 @@ StructureReport LazyStrategy<Real>::report() const
         geometry_.bytes() + ledger_.bytes() + around_.bytes() + outer_.bytes() + (scenery_ ? scenery_->bytes() : 0);
     report.peak_bytes = report.bytes;
     return report;
+}
+
+/// The scenery's grid; of what moves, the grids that rays have had made.
+template <typename Real>
+std::vector<StructureBox> LazyStrategy<Real>::outline() const
+{
+    std::vector<StructureBox> out;
+    if (scenery_) scenery_->append_outline({.name = "scenery", .primitives = scene_.groups[0].primitives()}, out);
+    for (const std::uint32_t item : there_) {
+        const LazyGrid* grid = groups_.made(item);
+        if (!grid) continue;
+        StructureBox box{.name = "what moves", .level = 1, .primitives = moving_};
+        if (item != everything_that_moves) {
+            const Group& group = scene_.groups[item];
+            box.name = group.node == 0 ? "deforming" : scene_.nodes[group.node].name;
+            box.primitives = group.primitives();
+        }
+        grid->append_outline(std::move(box), out);
+    }
+    return out;
 }
 
 }  // namespace

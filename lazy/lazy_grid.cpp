@@ -64,4 +64,33 @@ VoxelCounts LazyGrid::counts() const
     return counts;
 }
 
+std::uint64_t LazyGrid::keep()
+{
+    kept_.resize(top_.structure.cells.size());
+    std::uint64_t count = 0;
+    for (std::size_t cell = 0; cell < kept_.size(); ++cell) {
+        kept_[cell] = voxels_[cell].get() != nullptr;
+        count += kept_[cell];
+    }
+    return count;
+}
+
+void LazyGrid::append_outline(StructureBox heading, std::vector<StructureBox>& out) const
+{
+    const Grid& grid = top_.structure.grids[0];
+    const glm::dvec3 size = glm::dvec3(grid.hi()) - glm::dvec3(grid.lo);
+    heading.root_from_box = {glm::dmat3(size.x, 0, 0, 0, size.y, 0, 0, 0, size.z), grid.lo};
+    heading.dims = grid.dims;
+    for (std::uint32_t cell = 0; cell < grid.cells(); ++cell) {
+        if (listed(cell).empty()) continue;
+        const bool was_built = cell < kept_.size() && kept_[cell];
+        heading.filled_cells.push_back(cell);
+        heading.states.push_back(was_built     ? StructureBox::Voxel::kept
+                                 : built(cell) ? StructureBox::Voxel::built
+                                               : StructureBox::Voxel::unbuilt);
+        heading.references += listed(cell).size();
+    }
+    out.push_back(std::move(heading));
+}
+
 }  // namespace firstray::lazy

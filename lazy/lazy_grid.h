@@ -2,9 +2,11 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <vector>
 
 #include "engine/grid/build.h"
 #include "engine/grid/entries.h"
+#include "engine/strategy/outline.h"
 #include "lazy/ledger.h"
 #include "lazy/made_once.h"
 
@@ -43,6 +45,13 @@ public:
     const GridStructure* built(std::uint32_t cell) const { return voxels_[cell].get(); }
 
     VoxelCounts counts() const;
+
+    /// Between frames: what is built by now counts as kept. Returns how many voxels that are.
+    std::uint64_t keep();
+
+    /// Appends the grid as it stands, what is built and what is not, without what is inside voxels.
+    /// heading  its kind, name, level and primitives are kept, the rest is filled in
+    void append_outline(StructureBox heading, std::vector<StructureBox>& out) const;
     std::uint64_t bytes() const { return held_; }  ///< without voxels
 
 private:
@@ -53,6 +62,7 @@ private:
     GridEntries entries_;
     TopGrid top_;
     std::unique_ptr<MadeOnce<GridStructure>[]> voxels_;  ///< by cell
+    std::vector<std::uint8_t> kept_;  ///< by cell: built before the last keep(); empty before the first
     Ledger& ledger_;
     std::uint64_t held_ = 0;
 };

@@ -22,6 +22,9 @@ public:
         return word > refused ? reinterpret_cast<const T*>(word) : nullptr;
     }
 
+    /// The same, to be changed. Runs alone.
+    T* get_alone() { return const_cast<T*>(get()); }
+
     /// The same, but makes it first where nobody has begun to. Any number of threads.
     /// make  returns a unique_ptr to what was made, null to refuse; must not throw
     template <typename Make>

@@ -3,16 +3,15 @@
 
 namespace firstray::lazy {
 
-/// What the top grid lists of what moves.
+/// What becomes of what moves.
 enum class LazyTop : std::uint8_t {
-    groups,     ///< boxes of groups: nothing of a group is touched before a ray enters its box
-    primitives  ///< every primitive, as in the paper: all are carried at every update
+    groups,     ///< boxes of groups are listed: nothing of a group is touched before a ray enters its box
+    primitives  ///< every primitive is listed, as in the paper: all are carried when something has moved
 };
 
 /// What the user chooses about lazy building.
 struct Options {
     LazyTop top = LazyTop::groups;
-    std::uint64_t budget = 0;  ///< bytes that may be built while rays fly, and held; 0: no limit
 };
 
 }  // namespace firstray::lazy

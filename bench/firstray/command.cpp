@@ -58,6 +58,8 @@ void add_search(CLI::App& app, SearchChoice& search)
             "primitives in a voxel before it is split; default 0, the strategy's own");
     add_int(app, "--grid-depth", search.grid_depth, 1, 8,
             "levels of grids; default " + std::to_string(search.grid_depth));
+    add(app, "--structure-budget", search.structure_budget, "BYTES",
+        "most that lazy may build while rays fly, and hold; default 0, no limit");
     for (const OwnChoice& own : own_choices())
         add(app, "--" + std::string(own.flag), search.own[std::string(own.flag)], "NAME",
             list_of(own.words) + ": " + std::string(own.summary) + "; default " + std::string(own.words[0]));

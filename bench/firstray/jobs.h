@@ -1,4 +1,5 @@
 #pragma once
+#include <cstdint>
 #include <map>
 #include <string>
 
@@ -21,6 +22,7 @@ struct SearchChoice {
     float grid_density = 0.0f;
     int max_list = 0;
     int grid_depth = StrategyOptions{}.grid_depth;
+    std::uint64_t structure_budget = 0;
     std::map<std::string, std::string, std::less<>> own;  ///< StrategyOptions::own, by flag
 };
 

@@ -76,6 +76,7 @@ Json settings_of(const RenderJob& job, const Plan& plan, const Executor& executo
             {"grid_density", job.search.grid_density},
             {"max_list", job.search.max_list},
             {"grid_depth", job.search.grid_depth},
+            {"structure_budget", job.search.structure_budget},
             {"own", own_choices_of(job.search)},
             {"allow_outside", job.scene.allow_outside},
             {"aov", job.aovs},

@@ -67,6 +67,7 @@ AnyStrategy make_strategy(const SearchChoice& choice, const Scene& scene, const 
     StrategyOptions options{.precision = parse_precision(choice.precision),
                             .grid_density = choice.grid_density,
                             .max_list = choice.max_list,
+                            .structure_budget = choice.structure_budget,
                             .grid_depth = choice.grid_depth,
                             .executor = &executor};
     for (const auto& [flag, word] : choice.own)

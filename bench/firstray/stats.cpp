@@ -44,7 +44,12 @@ Json to_json(const StructureReport& report)
             {"depth", report.depth},
             {"largest_list", report.largest_list},
             {"bytes", report.bytes},
-            {"peak_bytes", report.peak_bytes}};
+            {"peak_bytes", report.peak_bytes},
+            {"regridded", report.regridded},
+            {"built_voxels", report.built_voxels},
+            {"kept_voxels", report.kept_voxels},
+            {"dropped_voxels", report.dropped_voxels},
+            {"refused_builds", report.refused_builds}};
 }
 
 }  // namespace

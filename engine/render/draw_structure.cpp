@@ -91,6 +91,14 @@ glm::dvec3 line_spacing(const StructureBox& box)
     return spacing;
 }
 
+std::vector<std::uint32_t> cells_in(const StructureBox& box, StructureBox::Voxel state)
+{
+    std::vector<std::uint32_t> cells;
+    for (std::size_t i = 0; i < box.filled_cells.size(); ++i)
+        if (box.states[i] == state) cells.push_back(box.filled_cells[i]);
+    return cells;
+}
+
 class StructureDrawing {
 public:
     StructureDrawing(const Frame& frame, const CameraRays& camera)
@@ -107,9 +115,14 @@ public:
             pen.spacing = std::max({size.x, size.y, size.z}) / subgrid_fading;
         }
         draw_edges(box.root_from_box, pen);
-        if (glm::all(glm::greaterThan(box.dims, glm::ivec3(0))))
-            draw_cells(box, box.filled_cells,
-                       {.colour = colour, .strength = cell_strength, .width = cell_width * width_scale_});
+        if (!glm::all(glm::greaterThan(box.dims, glm::ivec3(0)))) return;
+        pen = {.colour = colour, .strength = cell_strength, .width = cell_width * width_scale_};
+        if (box.states.empty()) return draw_cells(box, box.filled_cells, pen);
+        for (const StructureBox::Voxel state :
+             {StructureBox::Voxel::unbuilt, StructureBox::Voxel::kept, StructureBox::Voxel::built}) {
+            pen.colour = voxel_colour(state);
+            draw_cells(box, cells_in(box, state), pen);
+        }
     }
 
     void cover(std::vector<glm::vec3>& picture) const { layer_.cover(picture); }
@@ -174,6 +187,18 @@ Frame draw_structure(const Frame& frame, const CameraRays& camera, std::span<con
     subdue(drawn.colour);
     drawing.cover(drawn.colour);
     return drawn;
+}
+
+glm::vec3 voxel_colour(StructureBox::Voxel state)
+{
+    switch (state) {
+        case StructureBox::Voxel::built:
+            return level_colour(1);
+        case StructureBox::Voxel::kept:
+            return level_colour(4);
+        default:
+            return glm::vec3(0.55f);
+    }
 }
 
 glm::vec3 level_colour(int level)

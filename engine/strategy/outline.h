@@ -17,6 +17,12 @@ struct StructureBox {
         supergrid,  ///< holds boxes
         subgrid     ///< inside a voxel of the box before it that is one level up
     };
+    /// What has become of a voxel that is built when a ray enters it.
+    enum class Voxel : std::uint8_t {
+        built,   ///< since the last update
+        kept,    ///< built before
+        unbuilt  ///< no ray has entered it
+    };
     Kind kind = Kind::grid;
     std::string name{};                         ///< the transform's, or what the box is, e.g. "scenery"
     int level = 0;                              ///< 0: outermost; what is inside stands behind it, one level deeper
@@ -25,6 +31,7 @@ struct StructureBox {
     std::uint64_t primitives = 0;               ///< in it, each once
     std::uint64_t references = 0;               ///< listings of them in its voxels, subgrids included
     std::vector<std::uint32_t> filled_cells{};  ///< voxels that are not empty: x + dims.x * (y + dims.y * z), ascending
+    std::vector<Voxel> states{};  ///< of filled_cells; empty where everything is built by the update
 
     /// Lengths of the box's edges, root units.
     glm::dvec3 size() const

@@ -60,6 +60,7 @@ struct StrategyOptions {
     Precision precision = Precision::robust;
     float grid_density = 0.0f;  ///< cells of the top grid per primitive, > 0; 0 means the default
     int max_list = 0;           ///< primitives in a voxel above which it gets a subgrid, >= 1; 0: the default
+    std::uint64_t structure_budget = 0;  ///< bytes that may be built while rays fly, and held; 0: no limit
     int grid_depth = 3;         ///< levels of grids, >= 1; 1 means no subgrids
     std::vector<std::pair<std::string, std::string>> own{};  ///< what one strategy alone knows: flag, e.g. "obb-top",
                                                              ///< and word
