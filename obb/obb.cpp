@@ -17,10 +17,6 @@ namespace {
 /// A cluster that would stand in more cells of the scenery's grid than this is looked for by every ray instead.
 constexpr std::uint64_t most_cells = 4096;
 
-/// A box is made anew when its transform's scale has changed by more than this factor since: the floats of its rays
-/// would leave the range where they are fine.
-constexpr double most_stretch = 1024.0;
-
 /// Poses of the animation at which moving things are looked up, to choose the room that the scenery's grid covers.
 constexpr int sampled_poses = 32;
 
@@ -34,11 +30,12 @@ public:
         : scene_(scene),
           options_(options),
           own_(boxes),
-          maker_{scene, grid_options(options), boxes.inside, boxes.hits == Hits::local,
-                 static_cast<double>(std::numeric_limits<Real>::epsilon())},
+          maker_{scene, grid_options(options), boxes.inside, boxes.hits == Hits::local},
           hierarchy_(plan_hierarchy(scene, boxes.groups)),
           geometry_(scene),
           boxes_(hierarchy_.boxes.size()),
+          first_(hierarchy_.boxes.size()),
+          fits_(hierarchy_.boxes.size()),
           places_(hierarchy_.boxes.size()),
           placed_(hierarchy_.boxes.size() + hierarchy_.clusters.size()),
           supergrids_(hierarchy_.clusters.size()),
@@ -79,8 +76,10 @@ private:
     void build(const Pose& pose);
     void build_scenery(const Pose& pose);
     Aabb room_of_movers() const;
-    void make_box(std::uint32_t number, const Transform& root_from_node, double largest);
+    void make_first(std::uint32_t number, const Transform& root_from_node);
+    void make_fit(std::uint32_t number, const Fit& fit, const Transform& root_from_node, double largest);
     void move_box(std::uint32_t number, const Pose& pose);
+    void move_rigid(std::uint32_t number, const Transform& root_from_node);
     void place_clusters(const Pose& pose);
     Item make_item_of(std::uint32_t cluster, const Pose& pose, double wide);
     bool stands_in_scenery(const Item& item) const;
@@ -94,7 +93,14 @@ private:
     RootGeometry<Real> geometry_;
     bool has_scenery_ = false;
     BoxedGrid scenery_;
+    /// What a box was made as for the start of the animation.
+    struct First {
+        BoxSystem system;
+        float blur = 0.0f;
+    };
     std::vector<Box> boxes_;             ///< by hierarchy_.boxes
+    std::vector<First> first_;           ///< by box
+    std::vector<Fit> fits_;              ///< by box: what it is made for now
     std::vector<BoxPlace> places_;       ///< by box
     std::vector<glm::dmat3> axes_;       ///< by hierarchy_.clusters, in the system of their nodes; empty before build()
     std::vector<Placed> placed_;         ///< boxes, then clusters
@@ -130,13 +136,16 @@ void ObbStrategy<Real>::build(const Pose& now)
             largest_ = std::max({largest_, std::abs(everything.lo[axis]), std::abs(everything.hi[axis])});
     const auto make = [&](std::size_t number) {
         const auto index = static_cast<std::uint32_t>(number);
-        if (!group_of(index).deforming) make_box(index, usable(start, group_of(index).node), largest_);
+        if (!group_of(index).deforming) make_first(index, usable(start, group_of(index).node));
     };
     if (options_.executor)
         options_.executor->for_each(boxes_.size(), make);
     else
         for (std::size_t i = 0; i < boxes_.size(); ++i) make(i);
-    for (const Box& box : boxes_) peak_bytes_ += box.inside.bytes();
+    for (std::uint32_t i = 0; i < boxes_.size(); ++i) {
+        peak_bytes_ += boxes_[i].inside.bytes();
+        if (!group_of(i).deforming) regridded_ += hierarchy_.boxes[i].count();
+    }
 
     for (const Cluster& cluster : hierarchy_.clusters) {
         const Transform root_from_cluster = usable(start, cluster.node);
@@ -192,10 +201,41 @@ Aabb ObbStrategy<Real>::room_of_movers() const
 }
 
 template <typename Real>
-void ObbStrategy<Real>::make_box(std::uint32_t number, const Transform& root_from_node, double largest)
+void ObbStrategy<Real>::make_first(std::uint32_t number, const Transform& root_from_node)
 {
     std::uint64_t built_bytes = 0;
-    boxes_[number] = maker_.make(hierarchy_.boxes[number], root_from_node, largest, built_bytes);
+    boxes_[number] = maker_.make(hierarchy_.boxes[number], root_from_node, largest_, built_bytes);
+    first_[number] = {boxes_[number], boxes_[number].inside.blur};
+}
+
+/// largest  coordinate of the box in the root system
+template <typename Real>
+void ObbStrategy<Real>::make_fit(std::uint32_t number, const Fit& fit, const Transform& root_from_node, double largest)
+{
+    const BoxPlan& plan = hierarchy_.boxes[number];
+    std::uint64_t built_bytes = 0;
+    if (fit.is_distorted) {
+        boxes_[number] = maker_.make(plan, root_from_node, std::max(largest, largest_), built_bytes);
+    } else {
+        const First& first = first_[number];
+        const Transform larger{glm::dmat3(std::ldexp(1.0, fit.scale)), glm::dvec3(0.0)};
+        boxes_[number] = maker_.make_in(plan, larger * first.system.local_from_node,
+                                        std::ldexp(std::max(first.blur, 1e-37f), 2 * fit.blur), built_bytes);
+    }
+    fits_[number] = fit;
+    regridded_ += plan.count();
+}
+
+template <typename Real>
+void ObbStrategy<Real>::move_rigid(std::uint32_t number, const Transform& root_from_node)
+{
+    const Transform node_from_root = inverse(root_from_node);
+    BoxPlace& place = places_[number];
+    place = place_box(first_[number].system, root_from_node, node_from_root);
+    if (!place.is_there) return;
+    const Fit fit = fit_of(place, first_[number].blur);
+    if (fit.is_distorted || fit != fits_[number]) make_fit(number, fit, root_from_node, place.largest);
+    place = place_box(boxes_[number], root_from_node, node_from_root);
 }
 
 template <typename Real>
@@ -215,15 +255,7 @@ void ObbStrategy<Real>::move_box(std::uint32_t number, const Pose& pose)
         regridded_ += group.primitives();
         place = place_in_root(box);
     } else {
-        const Transform node_from_root = inverse(root_from_node);
-        place = place_box(box, root_from_node, node_from_root);
-        const double stretch = size_of(root_from_node.linear) / box.made_size;
-        if (!(stretch < most_stretch && stretch > 1.0 / most_stretch) ||
-            blur_of(place.local_from_root.linear, place.largest, maker_.epsilon) > box.inside.blur) {
-            make_box(number, root_from_node, std::max(place.largest, largest_));
-            regridded_ += box.inside.references;
-            place = place_box(box, root_from_node, node_from_root);
-        }
+        move_rigid(number, root_from_node);
     }
     placed_[number] = {&box, nullptr, plan.group, place.loose, place.local_from_root};
 }
@@ -239,7 +271,6 @@ Item ObbStrategy<Real>::make_item_of(std::uint32_t index, const Pose& pose, doub
         if (place.is_there)
             items.push_back(make_item(i, place.local_from_root, place.root_from_local, place.bounds, wide));
     }
-    supergrids_[index] = {};
     if (items.size() == 1) return items[0];
     supergrids_[index] = grid_of_items(items, false);
     const auto number = static_cast<std::uint32_t>(boxes_.size()) + index;
@@ -269,6 +300,7 @@ void ObbStrategy<Real>::place_clusters(const Pose& pose)
     const double wide = std::max(largest * static_cast<double>(box_pad_factor), 1e-30);
     std::vector<Item> among, outside;
     for (std::uint32_t i = 0; i < hierarchy_.clusters.size(); ++i) {
+        supergrids_[i] = {};
         const auto places = places_of(hierarchy_.clusters[i]);
         if (std::none_of(places.begin(), places.end(), [](const BoxPlace& place) { return place.is_there; })) continue;
         const Item item = make_item_of(i, pose, wide);
@@ -303,7 +335,7 @@ StructureReport ObbStrategy<Real>::report() const
         report.bytes += boxes_[i].inside.bytes() + sizeof(Box) + sizeof(BoxPlace) + sizeof(Placed);
         if (!places_[i].is_there) continue;
         add(boxes_[i].inside);
-        for (const PrimitiveRange& range : hierarchy_.boxes[i].primitives) report.primitives += range.count;
+        report.primitives += hierarchy_.boxes[i].count();
     }
     for (const BoxedGrid& supergrid : supergrids_) {
         add(supergrid.structure);
@@ -341,9 +373,10 @@ void ObbStrategy<Real>::outline_cluster(std::uint32_t index, std::vector<Structu
     }
     for (std::uint32_t i = cluster.first_box; i < cluster.first_box + cluster.boxes; ++i) {
         if (!places_[i].is_there) continue;
-        StructureBox box{
-            .kind = StructureBox::Kind::box, .name = hierarchy_.boxes[i].name, .level = has_supergrid ? 1 : 0};
-        for (const PrimitiveRange& range : hierarchy_.boxes[i].primitives) box.primitives += range.count;
+        StructureBox box{.kind = StructureBox::Kind::box,
+                         .name = hierarchy_.boxes[i].name,
+                         .level = has_supergrid ? 1 : 0,
+                         .primitives = hierarchy_.boxes[i].count()};
         if (has_supergrid) out[heading].primitives += box.primitives;
         append_outline(boxes_[i].inside, boxes_[i].inside.cells, places_[i].root_from_local, std::move(box), out);
     }

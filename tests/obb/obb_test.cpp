@@ -55,12 +55,12 @@ void check_scene(const Scene& scene, std::size_t call, int rays, int& hits)
 TEST_CASE("oriented boxes give the list's hits bit for bit, however they are nested, moved and searched")
 {
     int hits = 0;
-    for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+    for (std::uint64_t seed = 1; seed <= 6; ++seed) {
         CAPTURE(seed);
-        const glm::dvec3 offset = seed % 4 == 0 ? glm::dvec3(3e4, -1e5, 7e3) : glm::dvec3(0.0);
-        check_scene(moving_scene(seed, {.clusters = 4, .offset = offset}), seed, 600, hits);
+        const glm::dvec3 offset = seed % 3 == 0 ? glm::dvec3(3e4, -1e5, 7e3) : glm::dvec3(0.0);
+        check_scene(moving_scene(seed, {.clusters = 4, .offset = offset}), seed, 300, hits);
     }
-    CHECK(hits > 200000);
+    CHECK(hits > 50000);
     MESSAGE("hits compared: " << hits);
 }
 
@@ -71,9 +71,9 @@ TEST_CASE("oriented boxes give the list's hits bit for bit, whatever a transform
         CAPTURE(i);
         const Scene scene = moving_scene(static_cast<std::uint64_t>(100 + i),
                                          {.clusters = 2, .has_deforming = false, .motions = {static_cast<Motion>(i)}});
-        check_scene(scene, static_cast<std::size_t>(i), 400, hits);
+        check_scene(scene, static_cast<std::size_t>(i), 200, hits);
     }
-    CHECK(hits > 100000);
+    CHECK(hits > 50000);
     MESSAGE("hits compared: " << hits);
 }
 
@@ -92,9 +92,9 @@ TEST_CASE("oriented boxes give the list's hits bit for bit in supergrids, withou
     int hits = 0;
     for (const auto& [name, shape] : shapes) {
         CAPTURE(name);
-        check_scene(moving_scene(200, shape), 0, 300, hits);
+        check_scene(moving_scene(200, shape), 0, 200, hits);
     }
-    CHECK(hits > 100000);
+    CHECK(hits > 50000);
     MESSAGE("hits compared: " << hits);
 }
 
@@ -118,14 +118,14 @@ TEST_CASE("a ray is sent into a box once, in however many cells it stands")
     std::string text = "p 3 -50 -50 -50 -49 -50 -50 -50 -49 -50 p 3 50 50 50 49 50 50 50 49 50 x a { m vertices 576\n";
     for (int i = 0; i < 192; ++i) {
         const std::string z = std::to_string(-40.0 + 0.4 * i);
-        text += "-30 30.25 " + z + " 30 -29.75 " + z + " 30 -29.76 " + z + "\n";
+        text += (i % 2 ? "-30 30.25 " : "-30 30.24 ") + z + " 30 -29.75 " + z + " 30 -29.76 " + z + "\n";
     }
     text += "triangles 192\n";
     for (int i = 0; i < 192; ++i)
         text += std::to_string(3 * i) + ' ' + std::to_string(3 * i + 1) + ' ' + std::to_string(3 * i + 2) + '\n';
     const Scene scene = scene_of(text + "}");
     std::vector<TestRay> rays;
-    for (int i = 0; i < 100; ++i) rays.push_back({{-20 + 0.4 * i, 20.5 - 0.4 * i, 60}, {0, 0, -1}});
+    for (int i = 0; i < 100; ++i) rays.push_back({{-25 + 0.2 * i, 25.245 - 0.2 * i, 60}, {0, 0, -1}});
     const Pose now = pose(scene, 0.0);
     for (const obb::Top top : {obb::Top::grid, obb::Top::list}) {
         const auto strategy =
