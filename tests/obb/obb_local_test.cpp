@@ -113,5 +113,5 @@ TEST_CASE("hits decided in the boxes' systems are those of the root system but f
 
 TEST_CASE("hits decided in the boxes' systems, at length" * doctest::skip())
 {
-    check_local_hits(70, 102400);
+    check_local_hits(20, 51200);
 }
