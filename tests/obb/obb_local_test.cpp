@@ -14,7 +14,7 @@ namespace {
 /// How hits that are decided in the boxes' systems compare with those that are decided in the root system.
 struct Comparison {
     std::uint64_t rays = 0, hits = 0, hit_or_miss = 0, other_primitive = 0;
-    std::vector<double> errors;  ///< relative, of t, where the same primitive is hit
+    std::vector<double> errors;  ///< relative, of t, where the same primitive in a box is hit
 
     double per_million(std::uint64_t count) const
     {
@@ -26,7 +26,7 @@ struct Comparison {
         std::nth_element(errors.begin(), at, errors.end());
         return *at;
     }
-    void add(const RayTile<float>& root, const RayTile<float>& local)
+    void add(const Scene& scene, const RayTile<float>& root, const RayTile<float>& local)
     {
         rays += static_cast<std::uint64_t>(root.count);
         for (std::size_t i = 0; i < static_cast<std::size_t>(root.count); ++i) {
@@ -36,7 +36,8 @@ struct Comparison {
             if (!hit || local.primitive[i] == no_primitive) continue;
             const double error = std::abs(static_cast<double>(local.t_max[i]) - static_cast<double>(root.t_max[i])) /
                                  static_cast<double>(root.t_max[i]);
-            if (root.primitive[i] == local.primitive[i]) errors.push_back(error);
+            if (root.primitive[i] == local.primitive[i] && scene.part(root.primitive[i]).group != 0)
+                errors.push_back(error);
             other_primitive += root.primitive[i] != local.primitive[i] && error > 2e-5;
         }
     }
@@ -61,7 +62,7 @@ Comparison compare(int scenes, int rays_per_frame, double offset)
     Random random(11);
     for (int seed = 1; seed <= scenes; ++seed) {
         const Scene scene = moving_scene(static_cast<std::uint64_t>(seed),
-                                         {.scenery = 20,
+                                         {.scenery = 4,
                                           .clusters = 3,
                                           .triangles = 60,
                                           .boxes = 3,
@@ -80,7 +81,7 @@ Comparison compare(int scenes, int rays_per_frame, double offset)
                 const auto a = make_tile<float>(rays, first), b = make_tile<float>(rays, first);
                 root->closest(*a);
                 local->closest(*b);
-                result.add(*a, *b);
+                result.add(scene, *a, *b);
             }
         }
     }
@@ -92,12 +93,12 @@ void check_local_hits(int scenes, int rays_per_frame)
     for (const double offset : {0.0, 1e6}) {
         CAPTURE(offset);
         Comparison found = compare(scenes, rays_per_frame, offset);
-        MESSAGE("offset " << offset << ": " << found.rays << " rays, " << found.hits << " hits, hit or miss differs "
-                          << found.hit_or_miss << ", other primitive " << found.other_primitive << ", |dt|/t p50 "
-                          << found.percentile(0.5) << ", p99.9 " << found.percentile(0.999) << ", largest "
-                          << found.percentile(1.0));
-        CHECK(static_cast<double>(found.hits) > 0.2 * static_cast<double>(found.rays));
-        CHECK(found.percentile(1.0) > 0.0);  // local hits are not the root's
+        MESSAGE("offset " << offset << ": " << found.rays << " rays, " << found.hits << " hits, " << found.errors.size()
+                          << " of them in boxes, hit or miss differs " << found.hit_or_miss << ", other primitive "
+                          << found.other_primitive << ", |dt|/t p50 " << found.percentile(0.5) << ", p99.9 "
+                          << found.percentile(0.999) << ", largest " << found.percentile(1.0));
+        CHECK(static_cast<double>(found.errors.size()) > 0.1 * static_cast<double>(found.rays));
+        CHECK(found.percentile(0.9) > 0.0);  // local hits are not the root's
         CHECK(found.percentile(0.999) <= 2e-5);
         CHECK(found.per_million(found.hit_or_miss) <= 10.0);
         CHECK(found.per_million(found.other_primitive) <= 10.0);

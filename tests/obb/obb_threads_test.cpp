@@ -53,7 +53,7 @@ TEST_CASE("eight threads that touch groups for the first time at once find what 
         const Scene scene = moving_scene(seed, {.scenery = 20, .clusters = 5, .triangles = seed % 3 == 0 ? 200 : 8});
         const auto list = make_list<float>(scene, {});
         const auto strategy = obb::make_obb<float>(scene, {});
-        for (int round = 0; round < 18; ++round) {
+        for (int round = 0; round < 9; ++round) {
             const Pose now = pose(scene, scene.time_of(round % scene.frames));
             list->update(now);
             strategy->update(now);

@@ -128,10 +128,22 @@ TEST_CASE("a group is gridded anew only where its scale has changed by more than
     CHECK(regridded(b, many[0]) == 0);
 }
 
+TEST_CASE("a group that shrinks is gridded anew at every fourth of its size at most")
+{
+    const Scene scene = growing_scene(1e-3);  // 4^5
+    const std::vector<Pose> poses = poses_of(scene);
+    const Obb strategy = obb::make_obb<float>(scene, {});
+    strategy->update(poses[0]);
+    std::uint64_t all = 0;
+    for (int step = 0; step <= 200; ++step) all += regridded(strategy, pose(scene, 0.04 * step));
+    CHECK(all > 0);
+    CHECK(all <= 2 * 5);
+}
+
 TEST_CASE("a frame is the same after any others, forward, backward and in any order")
 {
     int hits = 0, frames = 0;
-    for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+    for (std::uint64_t seed = 1; seed <= 8; ++seed) {
         CAPTURE(seed);
         const Scene scene = moving_scene(seed, {.clusters = 4, .triangles = seed % 4 == 0 ? 80 : 12});
         const Frames expected(scene);
@@ -145,7 +157,7 @@ TEST_CASE("a frame is the same after any others, forward, backward and in any or
         for (int i = scene.frames - 1; i >= 0; --i) check(backward, i);
         for (int i = 0; i < scene.frames; ++i) check(shuffled, (5 * i + 3) % scene.frames);
     }
-    CHECK(hits > 50000);
+    CHECK(hits > 30000);
     MESSAGE("frames compared: " << frames << ", hits compared: " << hits);
 }
 
