@@ -82,12 +82,12 @@ private:
 
 const std::string triangle = "p 3 0 0 0 1 0 0 0 1 0 ";
 
-/// Two triangles that grow by a factor from time 0 to 8, beside a still one.
+/// Two triangles, away from the origin, that grow by a factor from time 0 to 8, beside a still one.
 Scene growing_scene(double factor)
 {
     const std::string f = std::to_string(factor), end = f + ' ' + f + ' ' + f + " 0 0 0 ";
-    return scene_of("a 0 8 9 " + triangle + "x a {" + triangle + triangle +
-                    "} k a { scale 4  -1 1 1 1 0 0 0  0 1 1 1 0 0 0 " + "8 " + end + "9 " + end + "}");
+    return scene_of("a 0 8 9 " + triangle + "xs 1 1 1 0 0 1 0 9 9 9 { x a {" + triangle + triangle +
+                    "} } k a { scale 4  -1 1 1 1 0 0 0  0 1 1 1 0 0 0  8 " + end + "9 " + end + "}");
 }
 
 }  // namespace
