@@ -332,7 +332,8 @@ StructureReport ObbStrategy<Real>::report() const
     }
     add(outer_.structure);
     for (std::uint32_t i = 0; i < boxes_.size(); ++i) {
-        report.bytes += boxes_[i].inside.bytes() + sizeof(Box) + sizeof(BoxPlace) + sizeof(Placed);
+        report.bytes +=
+            boxes_[i].inside.bytes() + sizeof(Box) + sizeof(First) + sizeof(Fit) + sizeof(BoxPlace) + sizeof(Placed);
         if (!places_[i].is_there) continue;
         add(boxes_[i].inside);
         report.primitives += hierarchy_.boxes[i].count();
