@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "obb/smallest_obb.h"
 
@@ -57,9 +58,10 @@ double size_of(const glm::dmat3& linear)
     return size;
 }
 
-float blur_of(const glm::dmat3& local_from_root, double largest, double epsilon)
+double blur_of(const glm::dmat3& local_from_root, double largest)
 {
-    return static_cast<float>(size_of(local_from_root) * largest * epsilon);
+    constexpr double epsilon = std::numeric_limits<float>::epsilon();
+    return size_of(local_from_root) * largest * epsilon;
 }
 
 GridOptions BoxMaker::shape_of(std::size_t primitives) const
@@ -74,18 +76,23 @@ GridOptions BoxMaker::shape_of(std::size_t primitives) const
 Box BoxMaker::make(const BoxPlan& plan, const Transform& root_from_node, double largest,
                    std::uint64_t& peak_bytes) const
 {
-    const Group& group = scene.groups[plan.group];
     const std::vector<glm::dvec3> points = points_of(scene, plan, root_from_node.linear);
     const Obb obb = smallest_obb(points);
     const glm::dmat3 local_from_turned = glm::transpose(obb.axes);
-    Box box;
-    box.local_from_node = {local_from_turned * root_from_node.linear, -(local_from_turned * obb.centre)};
-    box.node_from_local = inverse(box.local_from_node);
-    box.made_size = size_of(root_from_node.linear);
-
-    GridEntries entries;
     // Twice what is needed now, so that a group that moves farther out is not made anew at once.
-    entries.blur = 2.0f * blur_of(local_from_turned, largest, epsilon);
+    return make_in(plan, {local_from_turned * root_from_node.linear, -(local_from_turned * obb.centre)},
+                   static_cast<float>(2.0 * blur_of(local_from_turned, largest)), peak_bytes);
+}
+
+Box BoxMaker::make_in(const BoxPlan& plan, const Transform& local_from_node, float blur,
+                      std::uint64_t& peak_bytes) const
+{
+    const Group& group = scene.groups[plan.group];
+    Box box;
+    box.local_from_node = local_from_node;
+    box.node_from_local = inverse(local_from_node);
+    GridEntries entries;
+    entries.blur = blur;
     for_each_primitive(scene, plan, [&](PrimitiveId id, bool is_triangle) {
         const bool transmits = scene.material(id).transmits();
         if (!is_triangle) {

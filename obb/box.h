@@ -14,25 +14,28 @@
 
 namespace firstray::obb {
 
-/// An oriented box that keeps its grid. Its own system has the box's middle as origin, the box's edges as axes and,
-/// when it is made, the root system's lengths; a transform whose scale changes just stretches it.
-struct Box {
+/// A system whose origin is an oriented box's middle, and whose axes are its edges. Lengths are the root system's where
+/// the box was made for; a transform whose scale changes just stretches it.
+struct BoxSystem {
     Transform local_from_node, node_from_local;  ///< node: the group's
     DAabb bounds;                                ///< local, around all primitives; empty where there is nothing to hit
-    GridStructure inside;                        ///< local
+};
+
+/// An oriented box that keeps its grid.
+struct Box : BoxSystem {
+    GridStructure inside;               ///< local
     std::vector<RootQuadric> quadrics;  ///< placed in the box's system, by ascending id; only where hits are local
-    double made_size = 1.0;             ///< size_of the root_from_node that it was made for
 };
 
 /// The largest factor by which a linear map makes the largest component of a vector larger.
 double size_of(const glm::dmat3& linear);
 
 /// By how much a vertex's place in a box may differ from the place where it is tested in the root system, in the box's
-/// lengths, per coordinate: the roundings of both.
+/// lengths, per coordinate: the roundings of both, to float. In double it is less, but the same is reckoned with: it
+/// also covers that rays from far off, 1e6 times the box's place, are carried into its system in double.
 /// local_from_root  linear part
 /// largest          largest coordinate of the box in the root system
-/// epsilon          of the type that the root system's vertices are rounded to
-float blur_of(const glm::dmat3& local_from_root, double largest, double epsilon);
+double blur_of(const glm::dmat3& local_from_root, double largest);
 
 /// What boxes are made of and for.
 struct BoxMaker {
@@ -40,12 +43,15 @@ struct BoxMaker {
     GridOptions grid;
     Inside inside = Inside::automatic;
     bool keep_quadrics = false;
-    double epsilon = 0.0;  ///< of the type that the root system's vertices are rounded to
 
     /// Makes the smallest box of a group that does not deform.
     /// root_from_node  where its node stands now: its scale, shear and orientation shape the box, its offset does not
     /// largest         largest coordinate in the root system that the box is to be right for
     Box make(const BoxPlan& plan, const Transform& root_from_node, double largest, std::uint64_t& peak_bytes) const;
+
+    /// Makes a box whose system is known.
+    /// blur  see GridEntries
+    Box make_in(const BoxPlan& plan, const Transform& local_from_node, float blur, std::uint64_t& peak_bytes) const;
 
     /// Makes the box of a group that deforms, axis-aligned, in the root system itself, from its carried primitives.
     template <typename Real>

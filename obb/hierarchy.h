@@ -18,6 +18,13 @@ struct BoxPlan {
     std::uint32_t group = 0;  ///< all are of this group: they never move against each other, unless it deforms
     std::string name;         ///< of their transform
     std::vector<PrimitiveRange> primitives;  ///< ascending
+
+    std::uint32_t count() const
+    {
+        std::uint32_t count = 0;
+        for (const PrimitiveRange& range : primitives) count += range.count;
+        return count;
+    }
 };
 
 /// All boxes under one topmost dynamic transform: they stand together in a supergrid.

@@ -32,7 +32,7 @@ glm::dmat3 orthonormal(const glm::dmat3& axes)
 
 }  // namespace
 
-BoxPlace place_box(const Box& box, const Transform& root_from_node, const Transform& node_from_root)
+BoxPlace place_box(const BoxSystem& box, const Transform& root_from_node, const Transform& node_from_root)
 {
     BoxPlace place{.is_there = !box.bounds.empty(), .bounds = box.bounds};
     if (!place.is_there) return place;
@@ -43,6 +43,20 @@ BoxPlace place_box(const Box& box, const Transform& root_from_node, const Transf
     place.loose = static_cast<float>(
         std::min(size * size * size / std::abs(glm::determinant(place.root_from_local.linear)), 1e30));
     return place;
+}
+
+Fit fit_of(const BoxPlace& place, float blur)
+{
+    // With factors of more than 1024 the floats of rays in the box would leave the range where they are fine.
+    constexpr int scale_step = 20;
+    constexpr double most_distorted = 1024.0;
+    const double grown = size_of(place.root_from_local.linear), shrunk = size_of(place.local_from_root.linear);
+    if (!(grown * shrunk < most_distorted)) return {.is_distorted = true};
+    Fit fit{.scale = scale_step * static_cast<int>(std::lround(std::log2(grown) / scale_step))};
+    const double needed = std::ldexp(blur_of(place.local_from_root.linear, place.largest), fit.scale),
+                 made = std::max(static_cast<double>(blur), 1e-37);
+    if (needed > made) fit.blur = static_cast<int>(std::ceil(std::log2(needed / made) / 2.0));
+    return fit;
 }
 
 BoxPlace place_in_root(const Box& box)

@@ -19,10 +19,23 @@ struct BoxPlace {
 };
 
 /// node_from_root  inverse of root_from_node, which is not singular
-BoxPlace place_box(const Box& box, const Transform& root_from_node, const Transform& node_from_root);
+BoxPlace place_box(const BoxSystem& box, const Transform& root_from_node, const Transform& node_from_root);
 
 /// The place of a box that stands in the root system itself.
 BoxPlace place_in_root(const Box& box);
+
+/// What the box of a group is made for, and how that differs from what it was made for first: a function of the pose
+/// alone, so that frames do not depend on those before them, in steps, so that boxes are seldom made anew.
+struct Fit {
+    bool is_distorted = false;  ///< so much that it gets a box for this pose only
+    int scale = 0;              ///< exponent of two by which the system is larger
+    int blur = 0;               ///< exponent of four by which the blur is larger
+    bool operator==(const Fit&) const = default;
+};
+
+/// place  of the box that was made first
+/// blur   that it was made with
+Fit fit_of(const BoxPlace& place, float blur);
 
 /// Axes for the box around the boxes of a cluster: those of the smallest around them now, as columns, in the system of
 /// the cluster's node. They are chosen once; later boxes only fit their extents to it.

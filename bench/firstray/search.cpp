@@ -44,8 +44,14 @@ void check_search(const SearchChoice& choice)
         throw UsageError(fmt::format("--precision: strategy {} has no {}, expected {}", entry.name, choice.precision,
                                      in_double ? "fast or robust" : "double"));
     for (const OwnChoice& own : own_choices())
-        if (const auto word = choice.own.find(own.flag); word != choice.own.end() && !word->second.empty())
+        if (const auto word = choice.own.find(own.flag); word != choice.own.end() && !word->second.empty()) {
             find_word("--" + word->first, word->second, own.words);
+            const std::string_view owner = own.flag.substr(0, own.flag.find('-'));
+            if (owner != entry.name)
+                throw UsageError(fmt::format("--{} is for --strategy {}, not {}", own.flag, owner, entry.name));
+        }
+    if (choice.structure_budget > 0 && entry.name != "lazy")
+        throw UsageError(fmt::format("--structure-budget is for --strategy lazy, not {}", entry.name));
 }
 
 Json own_choices_of(const SearchChoice& choice)

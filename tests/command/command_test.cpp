@@ -4,56 +4,20 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
-#include <fstream>
-#include <nlohmann/json.hpp>
-#include <sstream>
 #include <vector>
 
 #include "bench/firstray/words.h"
+#include "tests/support/call_command.h"
 #include "tests/support/temp_folder.h"
 
 namespace firstray::command {
 namespace {
 
-/// A unit square in the plane z = 0 that moves along x, from 0 to 4 within 5 frames, in front of a still triangle.
-constexpr std::string_view moving_square = R"(
-v from 0 0 10 at 0 0 0 up 0 1 0 angle 60 hither 0.1 resolution 16 12
-l 0 10 10
-a 0 4 5
-fm 0 0 0 1 0.5 0.25 0 0 0 0 0 0
-p 3  -5 -5 -1  5 -5 -1  0 5 -1
-x mover {
-p 4  -0.5 -0.5 0  0.5 -0.5 0  0.5 0.5 0  -0.5 0.5 0
-}
-k mover {
-transl 7  -1 -1 0 0 0 0 0  0 0 0 0 0 0 0  1 1 0 0 0 0 0  2 2 0 0 0 0 0  3 3 0 0 0 0 0  4 4 0 0 0 0 0  5 5 0 0 0 0 0
-}
-)";
-
-struct Outcome {
-    int code = 0;
-    std::string out, err;
-};
-
-Outcome call(const std::vector<std::string>& arguments)
-{
-    std::ostringstream out, err;
-    const int code = run(arguments, {out, err});
-    return {code, out.str(), err.str()};
-}
-
-Outcome call_line(const std::string& line)
-{
-    std::vector<std::string> words;
-    for (const std::string_view word : split(line, ' ')) words.emplace_back(word);
-    return call(words);
-}
-
-nlohmann::json read_json(const std::filesystem::path& file)
-{
-    std::ifstream in(file);
-    return nlohmann::json::parse(in);
-}
+using test::call;
+using test::call_line;
+using test::moving_square;
+using test::Outcome;
+using test::read_json;
 
 /// The first three channels of a picture, pixel by pixel.
 std::vector<float> channels(const std::filesystem::path& file)
@@ -87,6 +51,11 @@ TEST_CASE("a command line that cannot be taken is told in one line and exits wit
         {"info a.aff --strategy grid", "--strategy requires --structure"},
         {"info a.aff --frame 3", "--frame requires --structure"},
         {"info a.aff --structure --strategy gird", "did you mean grid?"},
+        {"render a.aff --obb-top gird", "--obb-top: 'gird', expected grid or list; did you mean grid?"},
+        {"render a.aff --obb-groups static", "--obb-groups: 'static', expected dynamic or all"},
+        {"trace a.aff --frame 0 --rays r.csv --obb-hits world", "--obb-hits: 'world', expected root or local"},
+        {"info a.aff --structure --obb-inside auot", "expected auto, grid or list; did you mean auto?"},
+        {"info a.aff --obb-top list", "--obb-top requires --structure"},
         {"trace a.aff --rays r.csv", "needs --frame"},
         {"trace a.aff --frame 0", "needs --rays"},
     };
@@ -150,7 +119,7 @@ TEST_CASE("frames rendered alone or in a row, by any strategy and number of thre
     CHECK(all[4]["rays"]["primary"] == 16 * 12);
     CHECK(all[4]["time"] == 4.0);
     CHECK(all[4]["total_ms"].get<double>() > 0.0);
-    for (const std::string strategy : {"list", "grid"})
+    for (const std::string strategy : {"list", "grid", "obb"})
         for (const std::string threads : {"1", "2"}) {
             CAPTURE(strategy);
             CHECK(render("4", strategy, threads)[0]["image_hash"] == all[4]["image_hash"]);
@@ -194,7 +163,7 @@ TEST_CASE("answer line k belongs to ray k in every precision and by every strate
             .write("rays.csv",
                    "3.25,0.125,8,0,0,-2,0,inf\n100,0,8,0,0,-1,0,inf\n0,0,8,0,0,-1,0,inf\n0,0,8,0,0,-1,0,8.5\n")
             .string();
-    for (const std::string strategy : {"list", "grid"})
+    for (const std::string strategy : {"list", "grid", "obb"})
         for (const std::string precision : {"fast", "robust", "double"}) {
             CAPTURE(strategy);
             CAPTURE(precision);
