@@ -406,7 +406,7 @@ TEST_CASE("threads that meet build each voxel once and find what one alone finds
     run_threads(64, 1000);
 }
 
-TEST_CASE("threads that meet build each voxel once, in 10,000 scenes" * doctest::skip())
+TEST_CASE("threads that meet build each voxel once, in ten thousand scenes" * doctest::skip())
 {
     run_threads(2, 2000);
     run_threads(8, 4000);

@@ -5,6 +5,7 @@
 #include <array>
 #include <barrier>
 #include <memory>
+#include <vector>
 
 #include "tests/support/crew.h"
 
@@ -18,6 +19,7 @@ struct Sealed {
     std::array<std::uint64_t, 24> words{};
     std::uint64_t seal = 0;
 
+    Sealed() = default;  ///< not whole
     /// Gives others a chance to look at the half of it.
     explicit Sealed(std::uint64_t seed)
     {
@@ -34,15 +36,23 @@ struct Sealed {
     }
 };
 
-/// What many threads that ask together got.
-struct Tally {
-    std::atomic<int> made{0}, finished{0}, without{0}, broken{0}, others{0};
+/// What one of many threads that ask together got. Nothing that they share would do: it would keep them in order.
+struct alignas(64) Tally {
+    int made = 0, finished = 0, without = 0, broken = 0, others = 0;
 
     void count(const Sealed* got, const Sealed* expected)
     {
-        ++(got ? finished : without);
         broken += got && !got->is_whole();
         others += got && expected && got != expected;
+        ++(got ? finished : without);
+    }
+    void add(const Tally& tally)
+    {
+        made += tally.made;
+        finished += tally.finished;
+        without += tally.without;
+        broken += tally.broken;
+        others += tally.others;
     }
 };
 
@@ -52,25 +62,28 @@ TEST_CASE("of 64 threads that ask together one makes; others get the finished th
 {
     constexpr int rounds = 10000, threads = 64;
     std::vector<lazy::MadeOnce<Sealed>> things(rounds);
-    Tally tally;
+    std::vector<Tally> tallies(threads);
     std::barrier<> together(threads);
-    Crew(threads).run([&](int) {
+    Crew(threads).run([&](int thread) {
+        Tally& own = tallies[static_cast<std::size_t>(thread)];
         for (std::size_t round = 0; round < rounds; ++round) {
             if (round % 20 == 0) together.arrive_and_wait();  // or one thread makes them all in its slice of time
             const Sealed* const got = things[round].get_or_make([&] {
-                ++tally.made;
+                ++own.made;
                 return std::make_unique<Sealed>(round);
             });
-            tally.count(got, nullptr);
-            tally.count(things[round].get(), got);
+            own.count(got, nullptr);
+            own.count(things[round].get(), got);
         }
     });
+    Tally tally;
+    for (const Tally& one : tallies) tally.add(one);
     CHECK(tally.made == rounds);
     CHECK(tally.broken == 0);
     CHECK(tally.others == 0);
     CHECK(tally.finished + tally.without == 2 * rounds * threads);
     for (const auto& thing : things) CHECK(thing.get() != nullptr);
-    MESSAGE(rounds << " rounds, " << threads << " threads: " << tally.without.load() << " of " << 2 * rounds * threads
+    MESSAGE(rounds << " rounds, " << threads << " threads: " << tally.without << " of " << 2 * rounds * threads
                    << " calls did without");
 }
 
