@@ -26,6 +26,12 @@ GroupGrids<Real>::GroupGrids(const Scene& scene, const RootGeometry<Real>& geome
 }
 
 template <typename Real>
+GroupGrids<Real>::~GroupGrids()
+{
+    for (std::uint32_t group = 0; group < scene_.groups.size(); ++group) drop(group);
+}
+
+template <typename Real>
 const LazyGrid* GroupGrids<Real>::enter_first(std::uint32_t group) const
 {
     return grids_[group].get_or_make([&] { return make(group); });

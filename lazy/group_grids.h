@@ -16,8 +16,9 @@ inline constexpr std::uint32_t everything_that_moves = 0;
 template <typename Real>
 class GroupGrids {
 public:
-    /// geometry, ledger  must outlive this
+    /// scene, geometry, ledger  must outlive this
     GroupGrids(const Scene& scene, const RootGeometry<Real>& geometry, const GridOptions& options, Ledger& ledger);
+    ~GroupGrids();
 
     /// A group's grid, made now if it was not; null while another thread makes it, or where there is no memory for it:
     /// then the group's primitives are to be tested one by one. Any number of threads.

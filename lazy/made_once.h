@@ -3,6 +3,10 @@
 #include <cstdint>
 #include <memory>
 
+#ifndef FIRSTRAY_MUTANT
+#define FIRSTRAY_MUTANT 0  // 1, 2, 3: a fault on purpose, which tests/lazy/made_once_test.cpp must catch
+#endif
+
 namespace firstray::lazy {
 
 /// Something that the first thread to ask for it makes; the others do not wait but do without. One atomic word:
@@ -32,10 +36,17 @@ public:
     {
         if (const T* made = get()) return made;
         std::uintptr_t expected = not_made;
-        if (!word_.compare_exchange_strong(expected, being_made, std::memory_order_acquire)) return get();
+        const bool is_first = word_.compare_exchange_strong(expected, being_made, std::memory_order_acquire);
+        if (!is_first && FIRSTRAY_MUTANT != 2) return get();
+#if FIRSTRAY_MUTANT == 3
+        T* const early = new T();
+        word_.store(reinterpret_cast<std::uintptr_t>(early), std::memory_order_release);
+        if (std::unique_ptr<T> late = make()) *early = std::move(*late);
+        return early;
+#endif
         std::unique_ptr<T> fresh = make();
         const T* const made = fresh.release();
-        word_.store(made ? reinterpret_cast<std::uintptr_t>(made) : refused, std::memory_order_release);
+        word_.store(made ? reinterpret_cast<std::uintptr_t>(made) : refused, publish);
         return made;
     }
 
@@ -48,6 +59,8 @@ public:
     }
 
 private:
+    static constexpr std::memory_order publish =
+        FIRSTRAY_MUTANT == 1 ? std::memory_order_relaxed : std::memory_order_release;
     static constexpr std::uintptr_t not_made = 0, being_made = 1, refused = 2;
     std::atomic<std::uintptr_t> word_{not_made};
 };
