@@ -145,7 +145,12 @@ TEST_CASE("lazy: with no bytes to spend nothing is built, and hits are the same"
     const Exam exam(4);
     const Pose now = exam.moved({1, 2}, 0.3);
     const auto expected = exam.truth(now);
-    const auto lazy = lazy::make_lazy<float>(exam.scene, exam.options, {.budget = 1});
+    const auto with_budget = [&](std::uint64_t bytes) {
+        StrategyOptions options = exam.options;
+        options.structure_budget = bytes;
+        return lazy::make_lazy<float>(exam.scene, options);
+    };
+    const auto lazy = with_budget(1);
     for (int frame = 0; frame < 2; ++frame) {
         lazy->update(now);
         CHECK(lazy->report().refused_builds == 0);
@@ -156,7 +161,7 @@ TEST_CASE("lazy: with no bytes to spend nothing is built, and hits are the same"
         CHECK(report.grids == 1);
     }
 
-    const auto some = lazy::make_lazy<float>(exam.scene, exam.options, {.budget = 100000});
+    const auto some = with_budget(100000);
     const auto all = lazy::make_lazy<float>(exam.scene, exam.options);
     some->update(now);
     all->update(now);
