@@ -2,6 +2,7 @@
 #include <atomic>
 #include <cstdint>
 #include <memory>
+#include <type_traits>
 
 #ifndef FIRSTRAY_MUTANT
 #define FIRSTRAY_MUTANT 0  // 1, 2, 3: a fault on purpose, which tests/lazy/made_once_test.cpp must catch
@@ -38,12 +39,12 @@ public:
         std::uintptr_t expected = not_made;
         const bool is_first = word_.compare_exchange_strong(expected, being_made, std::memory_order_acquire);
         if (!is_first && FIRSTRAY_MUTANT != 2) return get();
-#if FIRSTRAY_MUTANT == 3
-        T* const early = new T();
-        word_.store(reinterpret_cast<std::uintptr_t>(early), std::memory_order_release);
-        if (std::unique_ptr<T> late = make()) *early = std::move(*late);
-        return early;
-#endif
+        if constexpr (FIRSTRAY_MUTANT == 3 && std::is_default_constructible_v<T>) {
+            T* const early = new T();
+            word_.store(reinterpret_cast<std::uintptr_t>(early), std::memory_order_release);
+            if (std::unique_ptr<T> late = make()) *early = std::move(*late);
+            return early;
+        }
         std::unique_ptr<T> fresh = make();
         const T* const made = fresh.release();
         word_.store(made ? reinterpret_cast<std::uintptr_t>(made) : refused, publish);

@@ -90,32 +90,33 @@ TEST_CASE("lazy: what moved loses its voxels, what stands keeps them")
     const auto lazy = lazy::make_lazy<float>(exam.scene, exam.options);
     std::vector<Pose> poses;  // they live until the next update
     poses.reserve(8);
-    const auto frame = [&](const std::vector<std::uint32_t>& groups, double by) {
+    const auto frame = [&](const std::vector<std::uint32_t>& groups, double by, std::uint64_t moved) {
         poses.push_back(exam.moved(groups, by));
         lazy->update(poses.back());
         const StructureReport before_rays = lazy->report();
         CHECK(before_rays.built_voxels == before_rays.kept_voxels);
+        CHECK(before_rays.grids == 7 - moved);
         CHECK(differing_hits(*exam.truth(poses.back()), *exam.hits(*lazy)) == 0);
         return lazy->report();
     };
-    const StructureReport first = frame({}, 0.0);
+    const StructureReport first = frame({}, 0.0, 6);
     CHECK(first.grids == 7);
 
-    const StructureReport second = frame({3}, 0.1);
+    const StructureReport second = frame({3}, 0.1, 1);
     CHECK(second.dropped_voxels > 0);
     CHECK(second.kept_voxels == first.built_voxels - second.dropped_voxels);
     CHECK(second.built_voxels > second.kept_voxels);
 
-    const StructureReport third = frame({3, 5}, 0.1);  // 3 stays where it was
+    const StructureReport third = frame({3, 5}, 0.1, 1);  // 3 stays where it was
     CHECK(third.dropped_voxels > 0);
     CHECK(third.kept_voxels == second.built_voxels - third.dropped_voxels);
 
-    const StructureReport all = frame({1, 2, 3, 4, 5, 6}, 0.2);
+    const StructureReport all = frame({1, 2, 3, 4, 5, 6}, 0.2, 6);
     CHECK(all.kept_voxels > 0);  // the scenery's
     CHECK(all.dropped_voxels > third.dropped_voxels);
     CHECK(all.kept_voxels == third.built_voxels - all.dropped_voxels);
 
-    const StructureReport again = frame({1, 2, 3, 4, 5, 6}, 0.2);
+    const StructureReport again = frame({1, 2, 3, 4, 5, 6}, 0.2, 0);
     CHECK(again.dropped_voxels == 0);
     CHECK(again.kept_voxels == all.built_voxels);
     CHECK(again.built_voxels == all.built_voxels);
