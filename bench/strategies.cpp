@@ -16,7 +16,7 @@ namespace {
 using OwnWords = std::vector<std::pair<std::string, std::string>>;
 
 constexpr std::string_view obb_groups[] = {"dynamic", "all"}, obb_top[] = {"grid", "list"},
-                           obb_hits[] = {"root", "local"}, obb_inside[] = {"auto", "grid", "list"},
+                           obb_hits[] = {"root", "local"}, obb_inside[] = {"auto", "grid", "list", "lazy"},
                            lazy_top[] = {"groups", "primitives"};
 
 /// Position of the word that was chosen for a flag; 0 where none was.
@@ -82,11 +82,11 @@ std::span<const OwnChoice> own_choices()
 {
     static constexpr OwnChoice table[] = {
         {"obb-groups", obb_groups,
-         "boxes for what dynamic transforms move, or for each static transform below them too"},
-        {"obb-top", obb_top, "boxes stand in the scenery's grid, or in a list that every ray goes through (the paper)"},
-        {"obb-hits", obb_hits, "hits in boxes are decided in the root system, or in the box's (the paper)"},
+         "boxes per dynamic transform, or per static one below too"},
+        {"obb-top", obb_top, "boxes in the scenery's grid, or in a list (the paper)"},
+        {"obb-hits", obb_hits, "decide hits in the root system, or the box's (the paper)"},
         {"obb-inside", obb_inside, "what is in a box"},
-        {"lazy-top", lazy_top, "the top grid lists boxes of what moves, or every primitive (the paper)"},
+        {"lazy-top", lazy_top, "list what moves by groups, or all of it (the paper)"},
     };
     return table;
 }

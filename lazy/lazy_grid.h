@@ -8,7 +8,7 @@
 #include "engine/grid/entries.h"
 #include "engine/strategy/outline.h"
 #include "lazy/ledger.h"
-#include "lazy/made_once.h"
+#include "engine/core/made_once.h"
 
 namespace firstray::lazy {
 

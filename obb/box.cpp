@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <new>
 
 #include "obb/smallest_obb.h"
 
@@ -66,11 +67,44 @@ double blur_of(const glm::dmat3& local_from_root, double largest)
 
 GridOptions BoxMaker::shape_of(std::size_t primitives) const
 {
-    if (inside == Inside::grid || (inside == Inside::automatic && primitives > handful)) return grid;
+    if (inside == Inside::grid || (inside != Inside::list && primitives > handful)) return grid;
     GridOptions list = grid;
     list.density = 1e-30f;
     list.depth = 1;
     return list;
+}
+
+void BoxMaker::fill(Box& box, GridEntries entries, std::uint64_t& peak_bytes) const
+{
+    const GridOptions shape = shape_of(entries.count());
+    box.blur = entries.blur;
+    if (inside != Inside::lazy) {
+        box.inside = build_grid(std::move(entries), shape, nullptr, peak_bytes);
+        return;
+    }
+    box.promise = std::make_unique<Promise>();
+    box.promise->entries = std::move(entries);
+    box.promise->shape = shape;
+}
+
+const GridStructure* Box::enter() const
+{
+    if (!promise) return &inside;
+    return promise->made.get_or_make([&]() -> std::unique_ptr<GridStructure> {
+        try {
+            std::uint64_t peak_bytes = 0;
+            return std::make_unique<GridStructure>(
+                build_grid(std::move(promise->entries), promise->shape, nullptr, peak_bytes));
+        } catch (const std::bad_alloc&) {
+            return nullptr;  // primitives are tested one by one instead
+        }
+    });
+}
+
+std::uint64_t Box::bytes() const
+{
+    const GridStructure* made = grid();
+    return (made ? made->bytes() : promise->entries.bytes()) + quadrics.capacity() * sizeof(RootQuadric);
 }
 
 Box BoxMaker::make(const BoxPlan& plan, const Transform& root_from_node, double largest,
@@ -111,8 +145,7 @@ Box BoxMaker::make_in(const BoxPlan& plan, const Transform& local_from_node, flo
         add_triangle(entries, t, id, transmits);
     });
     if (!keep_quadrics) box.quadrics = {};
-    const GridOptions shape = shape_of(entries.count());
-    box.inside = build_grid(std::move(entries), shape, nullptr, peak_bytes);
+    fill(box, std::move(entries), peak_bytes);
     return box;
 }
 
@@ -132,8 +165,7 @@ Box BoxMaker::make_deformed(const BoxPlan& plan, const RootGeometry<Real>& geome
         for (const glm::vec3& corner : t.v) box.bounds.grow(glm::dvec3(corner));
         add_triangle(entries, t, id, geometry.transmits(id));
     });
-    const GridOptions shape = shape_of(entries.count());
-    box.inside = build_grid(std::move(entries), shape, nullptr, peak_bytes);
+    fill(box, std::move(entries), peak_bytes);
     return box;
 }
 

@@ -1,9 +1,11 @@
 #pragma once
 #include <glm/glm.hpp>
 
+#include <memory>
 #include <vector>
 
 #include "engine/core/aabb.h"
+#include "engine/core/made_once.h"
 #include "engine/core/transform.h"
 #include "engine/grid/build.h"
 #include "engine/grid/entries.h"
@@ -21,9 +23,25 @@ struct BoxSystem {
     DAabb bounds;                                ///< local, around all primitives; empty where there is nothing to hit
 };
 
+/// What is in a box and is made when the first ray enters it.
+struct Promise {
+    MadeOnce<GridStructure> made;
+    GridEntries entries;  ///< what it is made of; the one who makes it empties it
+    GridOptions shape;
+};
+
 /// An oriented box that keeps its grid.
 struct Box : BoxSystem {
-    GridStructure inside;               ///< local
+    GridStructure inside;              ///< local; empty where it is promised
+    std::unique_ptr<Promise> promise;  ///< null where it is there from the beginning
+    float blur = 0.0f;                 ///< see GridEntries
+
+    /// What is inside, or null where no ray has asked for it.
+    const GridStructure* grid() const { return promise ? promise->made.get() : &inside; }
+    /// The same, made now if it was not; null while another thread makes it, or where there is no memory for it. Any
+    /// number of threads.
+    const GridStructure* enter() const;
+    std::uint64_t bytes() const;
     std::vector<RootQuadric> quadrics;  ///< placed in the box's system, by ascending id; only where hits are local
 };
 
@@ -60,6 +78,7 @@ struct BoxMaker {
 
 private:
     GridOptions shape_of(std::size_t primitives) const;
+    void fill(Box& box, GridEntries entries, std::uint64_t& peak_bytes) const;
 };
 
 }  // namespace firstray::obb

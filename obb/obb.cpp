@@ -37,7 +37,7 @@ void ObbStrategy<Real>::build(const Pose& now)
     else
         for (std::size_t i = 0; i < boxes_.size(); ++i) make(i);
     for (std::uint32_t i = 0; i < boxes_.size(); ++i) {
-        peak_bytes_ += boxes_[i].inside.bytes();
+        peak_bytes_ += boxes_[i].bytes();
         if (!group_of(i).deforming) regridded_ += hierarchy_.boxes[i].count();
     }
 
@@ -78,7 +78,7 @@ void ObbStrategy<Real>::make_first(std::uint32_t number, const Transform& root_f
 {
     std::uint64_t built_bytes = 0;
     boxes_[number] = maker_.make(hierarchy_.boxes[number], root_from_node, largest_, built_bytes);
-    first_[number] = {boxes_[number], boxes_[number].inside.blur};
+    first_[number] = {boxes_[number], boxes_[number].blur};
 }
 
 /// largest  coordinate of the box in the root system
@@ -130,7 +130,7 @@ void ObbStrategy<Real>::move_box(std::uint32_t number, const Pose& pose)
     } else {
         move_rigid(number, root_from_node);
     }
-    placed_[number] = {&box, nullptr, plan.group, place.loose, place.local_from_root};
+    placed_[number] = {&box, &plan, nullptr, plan.group, place.loose, place.local_from_root};
 }
 
 /// The item of a cluster: its one box, or a supergrid over its boxes, made anew.

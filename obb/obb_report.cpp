@@ -37,9 +37,9 @@ StructureReport ObbStrategy<Real>::report() const
     add(outer_.structure);
     for (std::uint32_t i = 0; i < boxes_.size(); ++i) {
         report.bytes +=
-            boxes_[i].inside.bytes() + sizeof(Box) + sizeof(First) + sizeof(Fit) + sizeof(BoxPlace) + sizeof(Placed);
+            boxes_[i].bytes() + sizeof(Box) + sizeof(First) + sizeof(Fit) + sizeof(BoxPlace) + sizeof(Placed);
         if (!places_[i].is_there) continue;
-        add(boxes_[i].inside);
+        if (const GridStructure* inside = boxes_[i].grid()) add(*inside);
         report.primitives += hierarchy_.boxes[i].count();
     }
     for (const BoxedGrid& supergrid : supergrids_) {
@@ -83,12 +83,14 @@ void ObbStrategy<Real>::outline_cluster(std::uint32_t index, std::vector<Structu
                          .level = has_supergrid ? 1 : 0,
                          .primitives = hierarchy_.boxes[i].count()};
         if (has_supergrid) out[heading].primitives += box.primitives;
-        const std::size_t position = out.size();
-        append_outline(boxes_[i].inside, boxes_[i].inside.cells, places_[i].root_from_local, std::move(box), out);
-        if (boxes_[i].inside.cells.size() == 1) {  // a list
-            out[position].dims = glm::ivec3(0);
-            out[position].filled_cells.clear();
+        const GridStructure* inside = boxes_[i].grid();
+        if (inside && inside->cells.size() > 1) {
+            append_outline(*inside, inside->cells, places_[i].root_from_local, std::move(box), out);
+            continue;
         }
+        box.root_from_box = places_[i].root_from_local * cube_onto(places_[i].bounds);
+        box.references = inside ? inside->references : 0;
+        out.push_back(std::move(box));
     }
 }
 

@@ -25,7 +25,8 @@ enum class Hits : std::uint8_t {
 enum class Inside : std::uint8_t {
     automatic,  ///< a list for a handful of primitives, else a grid
     grid,
-    list  ///< of packs with boxes, without a grid
+    list,  ///< of packs with boxes, without a grid
+    lazy   ///< as automatic, but made when the first ray enters the box
 };
 
 /// What the user chooses about the hierarchy of boxes.

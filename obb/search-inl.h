@@ -38,19 +38,32 @@ struct BoxPrimitives {
         return intersect_rounded(*found, ray, mask);
     }
 
+    /// The same of a primitive that no pack holds.
+    TriangleHit<Real> alone(PrimitiveId id, Real t_last) const
+    {
+        const RootTriangle<Real> tested =
+            target.hits == Hits::root ? target.geometry->triangle_of(group, id) : local_of(id);
+        return intersect_precisely(tested, ray, target.precision, t_last);
+    }
+
 private:
     RootTriangle<Real> local(const TrianglePack& pack, int lane, PrimitiveId id) const
     {
-        if constexpr (std::is_same_v<Real, float>) {
+        if constexpr (std::is_same_v<Real, float>)
             return pack.triangle(lane);
-        } else {
-            const Group& g = target.scene->groups[group];
-            const glm::uvec3& vertex = target.scene->triangles[id - g.first + g.first_triangle].vertex;
-            RootTriangle<double> t;
-            for (int k = 0; k < 3; ++k) t.v[k] = box.local_from_node.point(target.scene->positions[vertex[k]]);
-            t.edge = longest_edge<double>(t.v[0], t.v[1], t.v[2]);
-            return t;
-        }
+        else
+            return local_of(id);
+    }
+
+    RootTriangle<Real> local_of(PrimitiveId id) const
+    {
+        const Group& g = target.scene->groups[group];
+        const glm::uvec3& vertex = target.scene->triangles[id - g.first + g.first_triangle].vertex;
+        RootTriangle<Real> t;
+        for (int k = 0; k < 3; ++k)
+            t.v[k] = typename RootTriangle<Real>::Vec(box.local_from_node.point(target.scene->positions[vertex[k]]));
+        t.edge = longest_edge<Real>(t.v[0], t.v[1], t.v[2]);
+        return t;
     }
 };
 
@@ -78,11 +91,32 @@ struct World {
     HWY_NOINLINE bool search_box(Quest& quest, const Placed& placed, const SearchRay<Real>& ray, const glm::dvec3& o,
                                  const glm::dvec3& d, float loose) const
     {
-        const GridStructure& inside = placed.box->inside;
+        const GridStructure* inside = placed.box->enter();
         const BoxPrimitives<Real> primitives{target, *placed.box, placed.group, ray};
-        Search<Quest, BoxPrimitives<Real>> search{quest, primitives, &inside};
+        if (HWY_UNLIKELY(!inside)) return one_by_one(quest, *placed.plan, primitives);
+        Search<Quest, BoxPrimitives<Real>> search{quest, primitives, inside};
         return search.begin(o, d, target.precision == Precision::fast ? loose : 0.0f) &&
-               search.run(EagerResolver(inside));
+               search.run(EagerResolver(*inside));
+    }
+
+    /// Tests all primitives of a box.
+    template <class Quest>
+    HWY_NOINLINE bool one_by_one(Quest& quest, const BoxPlan& plan, const BoxPrimitives<Real>& primitives) const
+    {
+        const Group& group = target.scene->groups[plan.group];
+        for (const PrimitiveRange& range : plan.primitives)
+            for (PrimitiveId id = range.first; id < range.first + range.count; ++id) {
+                quest.cost.add_quadric();
+                TriangleHit<Real> found;
+                if (id - group.first >= group.triangles) {
+                    found.t = primitives.quadric(id, quest.mask);
+                    found.hit = std::isfinite(found.t);
+                } else if (id != quest.hit.id && admits(quest.mask, target.geometry->transmits(id))) {
+                    found = primitives.alone(id, quest.hit.t);
+                }
+                if (found.hit && quest.take(found.t, found.u, found.v, id) && Quest::query == Query::any) return true;
+            }
+        return false;
     }
 };
 

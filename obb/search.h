@@ -4,15 +4,16 @@
 
 #include "engine/core/precision.h"
 #include "engine/core/ray_tile.h"
+#include "engine/grid/boxed_grid.h"
 #include "engine/strategy/root_geometry.h"
 #include "obb/box.h"
-#include "engine/grid/boxed_grid.h"
 
 namespace firstray::obb {
 
 /// Where an item of a boxed grid stands now, and what is in it.
 struct Placed {
     const Box* box = nullptr;              ///< null for supergrids
+    const BoxPlan* plan = nullptr;         ///< of the box
     const BoxedGrid* supergrid = nullptr;  ///< null for boxes
     std::uint32_t group = 0;               ///< whose primitives the box holds
     float loose = 1.0f;                    ///< how much larger the test's errors are in the box's system: see FilterRay

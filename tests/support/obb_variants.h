@@ -13,6 +13,7 @@ inline std::vector<obb::Options> obb_variants()
         for (const obb::Top top : {obb::Top::grid, obb::Top::list})
             for (const obb::Inside inside : {obb::Inside::automatic, obb::Inside::grid, obb::Inside::list})
                 variants.push_back({groups, top, obb::Hits::root, inside});
+    variants.push_back({.inside = obb::Inside::lazy});
     return variants;
 }
 

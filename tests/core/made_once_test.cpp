@@ -1,4 +1,4 @@
-#include "lazy/made_once.h"
+#include "engine/core/made_once.h"
 
 #include <doctest/doctest.h>
 
@@ -61,7 +61,7 @@ struct alignas(64) Tally {
 TEST_CASE("of 64 threads that ask together one makes; others get the finished thing or do without")
 {
     constexpr int rounds = 10000, threads = 64;
-    std::vector<lazy::MadeOnce<Sealed>> things(rounds);
+    std::vector<MadeOnce<Sealed>> things(rounds);
     std::vector<Tally> tallies(threads);
     std::barrier<> together(threads);
     Crew(threads).run([&](int thread) {
@@ -91,7 +91,7 @@ TEST_CASE("of 64 threads that ask together one makes; others get the finished th
 
 TEST_CASE("who asks while it is being made does without")
 {
-    lazy::MadeOnce<Sealed> thing;
+    MadeOnce<Sealed> thing;
     const Sealed* seen = nullptr;
     int made = 0;
     const Sealed* const got = thing.get_or_make([&] {
@@ -113,7 +113,7 @@ TEST_CASE("who asks while it is being made does without")
 TEST_CASE("many threads are refused together, once for all")
 {
     constexpr int rounds = 1000;
-    std::vector<lazy::MadeOnce<Sealed>> things(rounds);
+    std::vector<MadeOnce<Sealed>> things(rounds);
     std::atomic<int> asked{0}, got{0};
     Crew(8).run([&](int) {
         for (auto& thing : things) {
@@ -131,7 +131,7 @@ TEST_CASE("many threads are refused together, once for all")
 TEST_CASE("what is taken out, or was refused, can be made again")
 {
     int made = 0;
-    lazy::MadeOnce<Sealed> thing;
+    MadeOnce<Sealed> thing;
     const auto make = [&] {
         ++made;
         return std::make_unique<Sealed>(static_cast<std::uint64_t>(made));

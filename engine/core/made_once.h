@@ -5,10 +5,10 @@
 #include <type_traits>
 
 #ifndef FIRSTRAY_MUTANT
-#define FIRSTRAY_MUTANT 0  // 1, 2, 3: a fault on purpose, which tests/lazy/made_once_test.cpp must catch
+#define FIRSTRAY_MUTANT 0  // 1, 2, 3: a fault on purpose, which tests/core/made_once_test.cpp must catch
 #endif
 
-namespace firstray::lazy {
+namespace firstray {
 
 /// Something that the first thread to ask for it makes; the others do not wait but do without. One atomic word:
 /// not made -> being made -> made (a pointer), or refused until the next reset.
@@ -66,4 +66,4 @@ private:
     std::atomic<std::uintptr_t> word_{not_made};
 };
 
-}  // namespace firstray::lazy
+}  // namespace firstray
