@@ -83,6 +83,7 @@ GridOptions GroupGrids<Real>::shape_of(std::size_t primitives) const
 template <typename Real>
 std::uint64_t GroupGrids<Real>::keep(std::uint32_t group)
 {
+    grids_[group].forget_refusal();
     LazyGrid* grid = grids_[group].get_alone();
     return grid ? grid->keep() : 0;
 }

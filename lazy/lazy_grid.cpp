@@ -69,6 +69,7 @@ std::uint64_t LazyGrid::keep()
     kept_.resize(top_.structure.cells.size());
     std::uint64_t count = 0;
     for (std::size_t cell = 0; cell < kept_.size(); ++cell) {
+        voxels_[cell].forget_refusal();
         kept_[cell] = voxels_[cell].get() != nullptr;
         count += kept_[cell];
     }

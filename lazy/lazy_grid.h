@@ -46,7 +46,8 @@ public:
 
     VoxelCounts counts() const;
 
-    /// Between frames: what is built by now counts as kept. Returns how many voxels that are.
+    /// Between frames: what is built by now counts as kept, and what there was no memory for may be asked for again.
+    /// Returns how many voxels are built.
     std::uint64_t keep();
 
     /// Appends the grid as it stands, what is built and what is not, without what is inside voxels.

@@ -51,6 +51,12 @@ public:
         return made;
     }
 
+    /// Lets a refusal be asked again. Runs alone.
+    void forget_refusal()
+    {
+        if (word_.load(std::memory_order_relaxed) == refused) word_.store(not_made, std::memory_order_relaxed);
+    }
+
     /// Takes out what was made, or nothing, and forgets a refusal. Runs alone.
     std::unique_ptr<T> take()
     {

@@ -157,7 +157,7 @@ TEST_CASE("lazy: with no bytes to spend nothing is built, and hits are the same"
         CHECK(lazy->report().refused_builds == 0);
         CHECK(differing_hits(*expected, *exam.hits(*lazy)) == 0);
         const StructureReport report = lazy->report();
-        if (frame == 0) CHECK(report.refused_builds > 100);
+        CHECK(report.refused_builds > 100);  // asked for again in every frame
         CHECK(report.built_voxels == 0);
         CHECK(report.grids == 1);
     }
