@@ -22,12 +22,16 @@ Transform usable(const Pose& start, std::uint32_t node)
 template <typename Real>
 void ObbStrategy<Real>::build(const Pose& now)
 {
-    // What is kept is made for the start of the animation, whichever frame comes first.
+    // What is kept is made for the start of the animation, whichever frame comes first, and for wherever things go.
     const Pose start = pose(scene_, scene_.start);
     const DAabb everything = bounds(start);
     if (!everything.empty())
         for (int axis = 0; axis < 3; ++axis)
             largest_ = std::max({largest_, std::abs(everything.lo[axis]), std::abs(everything.hi[axis])});
+    const Aabb room = room_of_movers(scene_, group_bounds(scene_));
+    for (int axis = 0; axis < 3 && !room.empty(); ++axis)
+        largest_ = std::max(
+            {largest_, static_cast<double>(std::abs(room.lo[axis])), static_cast<double>(std::abs(room.hi[axis]))});
     const auto make = [&](std::size_t number) {
         const auto index = static_cast<std::uint32_t>(number);
         if (!group_of(index).deforming) make_first(index, usable(start, group_of(index).node));

@@ -96,7 +96,7 @@ private:
     std::vector<BoxedGrid> supergrids_;  ///< by cluster; of those that hold several boxes
     std::vector<ClusterBox> cluster_boxes_;  ///< by cluster, around the supergrids
     BoxedGrid outer_;
-    double largest_ = 0.0;  ///< coordinate of anything visible when the animation starts
+    double largest_ = 0.0;  ///< coordinate of anything visible at the animation's start, or of what moves later
     std::uint64_t peak_bytes_ = 0, regridded_ = 0;
 };
 
