@@ -193,3 +193,23 @@ TEST_CASE("lazy: many threads find what one finds, frame by frame")
     }
     MESSAGE(frames << " frames, " << threads << " threads, " << exam.rays.size() << " rays each");
 }
+
+TEST_CASE("lazy: with every primitive in a top grid the hits are the same, and what stands stays")
+{
+    const Exam exam(6);
+    StructureReport before;
+    const auto lazy = lazy::make_lazy<float>(exam.scene, exam.options, {.top = lazy::LazyTop::primitives});
+    for (const double step : {0.0, 0.3, 0.3, 0.7}) {
+        CAPTURE(step);
+        const Pose now = exam.moved({1, 2}, step);
+        lazy->update(now);
+        CHECK(differing_hits(*exam.truth(now), *exam.hits(*lazy)) == 0);
+        CHECK(lazy->report().built_voxels > 0);
+    }
+    const Pose now = exam.moved({1, 2}, 0.7);
+    before = lazy->report();
+    lazy->update(now);
+    CHECK(lazy->report().dropped_voxels == 0);
+    CHECK(lazy->report().kept_voxels == before.built_voxels);
+    CHECK(differing_hits(*exam.truth(now), *exam.hits(*lazy)) == 0);
+}
