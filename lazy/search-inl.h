@@ -50,9 +50,8 @@ struct LazySearch : Search<Quest, RootPrimitives<typename Quest::Real>> {
         const GridStructure* built = grid->voxel(voxel.cell);
         if (HWY_UNLIKELY(!built)) return unbuilt(voxel.cell);
         this->structure = built;
-        const Grid& top = built->grids[0];
         if (built->cells.size() == 1) return Base::list(built->lists[0], t_enter);
-        return Base::enter(top, t_enter, t_leave, EagerResolver(*built));
+        return Base::enter(built->grids[0], t_enter, t_leave, EagerResolver(*built));
     }
     template <class Voxel, class Resolver>
     HWY_INLINE bool visit(const Voxel& voxel, float t_enter, float t_leave, const Resolver& resolve)
@@ -66,7 +65,7 @@ struct LazySearch : Search<Quest, RootPrimitives<typename Quest::Real>> {
         const GridEntries& entries = grid->entries();
         for (const std::uint32_t entry : grid->listed(cell)) {
             const PrimitiveId id = entries.ids[entry] & ~transmitting_bit;
-            quest.cost.add_quadric();
+            quest.cost.add_test();
             if (!entries.is_triangle(entry)) {
                 const auto t = primitives.quadric(id, quest.mask);
                 if (std::isfinite(t) && this->offer(t, 0, 0, id)) return true;
@@ -77,6 +76,24 @@ struct LazySearch : Search<Quest, RootPrimitives<typename Quest::Real>> {
             if (found.hit && this->offer(found.t, found.u, found.v, id)) return true;
         }
         return false;
+    }
+};
+
+/// The primitives of a group that may not be carried yet, and is not to be.
+template <typename Real>
+struct GroupPrimitives {
+    const RootGeometry<Real>& geometry;
+    std::uint32_t group;
+    const SearchRay<Real>& ray;
+    Precision precision;
+
+    TriangleHit<Real> alone(PrimitiveId id, Real t_last) const
+    {
+        return intersect_precisely(geometry.triangle_alone(group, id), ray, precision, t_last);
+    }
+    Real quadric(PrimitiveId id, RayMask mask) const
+    {
+        return intersect_rounded(geometry.quadric_alone(group, id), ray, mask);
     }
 };
 
@@ -91,33 +108,17 @@ struct World {
     HWY_NOINLINE bool enter(std::uint32_t group, Quest& quest) const
     {
         const LazyGrid* grid = target.groups->grid(group);
-        if (HWY_UNLIKELY(!grid)) return one_by_one(group, quest);
+        if (HWY_UNLIKELY(!grid)) {
+            const Group& g = target.scene->groups[group];
+            const GroupPrimitives<Real> alone{*target.geometry, group, quest.ray, target.precision};
+            return test_one_by_one(quest, g, g.first, g.primitives(), *target.geometry, alone);
+        }
         const RootPrimitives<Real> primitives{*target.geometry, quest.ray, target.precision};
         LazySearch<Quest> search(quest, primitives, grid->top(), grid);
         const float loose = target.precision == Precision::fast ? 1.0f : 0.0f;
         return search.begin(glm::dvec3(quest.ray.origin), glm::dvec3(quest.ray.direction), loose) &&
                (search.large() ||
                 traverse(grid->top().grids[0], search.walk, 0.0f, search.stop, LazyResolver(grid->top()), search));
-    }
-
-    /// Tests all primitives of a group.
-    template <class Quest>
-    HWY_NOINLINE bool one_by_one(std::uint32_t group, Quest& quest) const
-    {
-        const Group& g = target.scene->groups[group];
-        for (PrimitiveId id = g.first; id < g.first + g.primitives(); ++id) {
-            quest.cost.add_quadric();
-            TriangleHit<Real> found;
-            if (id - g.first >= g.triangles) {
-                found.t = intersect_rounded(target.geometry->quadric_alone(group, id), quest.ray, quest.mask);
-                found.hit = std::isfinite(found.t);
-            } else if (id != quest.hit.id && admits(quest.mask, target.geometry->transmits(id))) {
-                found = intersect_precisely(target.geometry->triangle_alone(group, id), quest.ray, target.precision,
-                                            quest.hit.t);
-            }
-            if (found.hit && quest.take(found.t, found.u, found.v, id) && Quest::query == Query::any) return true;
-        }
-        return false;
     }
 };
 

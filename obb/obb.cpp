@@ -134,7 +134,13 @@ void ObbStrategy<Real>::move_box(std::uint32_t number, const Pose& pose)
     } else {
         move_rigid(number, root_from_node);
     }
-    placed_[number] = {&box, &plan, nullptr, plan.group, place.loose, place.local_from_root};
+    placed_[number] = {&box,
+                       &plan,
+                       nullptr,
+                       own_.hits == Hits::root || group.deforming,
+                       plan.group,
+                       place.loose,
+                       place.local_from_root};
 }
 
 /// The item of a cluster: its one box, or a supergrid over its boxes, made anew.

@@ -53,7 +53,6 @@ private:
         return {&scene_,
                 &geometry_,
                 options_.precision,
-                own_.hits,
                 has_scenery_ ? &scenery_ : nullptr,
                 outer_.voxels.empty() ? nullptr : &outer_,
                 &placed_};

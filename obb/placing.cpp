@@ -4,22 +4,11 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/strategy/group_bounds.h"
 #include "obb/smallest_obb.h"
 
 namespace firstray::obb {
 namespace {
-
-double largest_coordinate(const Transform& root_from_local, const DAabb& bounds)
-{
-    const glm::dvec3 centre = root_from_local.point((bounds.lo + bounds.hi) * 0.5), half = bounds.size() * 0.5;
-    double largest = 0.0;
-    for (int axis = 0; axis < 3; ++axis) {
-        double reach = std::abs(centre[axis]);
-        for (int j = 0; j < 3; ++j) reach += std::abs(root_from_local.linear[j][axis]) * half[j];
-        largest = std::max(largest, reach);
-    }
-    return largest;
-}
 
 /// Columns made orthonormal, the first keeping its direction; right-handed.
 glm::dmat3 orthonormal(const glm::dmat3& axes)
@@ -38,7 +27,7 @@ BoxPlace place_box(const BoxSystem& box, const Transform& root_from_node, const 
     if (!place.is_there) return place;
     place.local_from_root = box.local_from_node * node_from_root;
     place.root_from_local = root_from_node * box.node_from_local;
-    place.largest = largest_coordinate(place.root_from_local, place.bounds);
+    place.largest = largest_coordinate(transformed(place.bounds, place.root_from_local));
     const double size = size_of(place.root_from_local.linear);
     place.loose = static_cast<float>(
         std::min(size * size * size / std::abs(glm::determinant(place.root_from_local.linear)), 1e30));
@@ -62,7 +51,7 @@ Fit fit_of(const BoxPlace& place, float blur)
 BoxPlace place_in_root(const Box& box)
 {
     BoxPlace place{.is_there = !box.bounds.empty(), .bounds = box.bounds};
-    if (place.is_there) place.largest = largest_coordinate({}, place.bounds);
+    if (place.is_there) place.largest = largest_coordinate(place.bounds);
     return place;
 }
 

@@ -21,18 +21,19 @@ struct BoxPrimitives {
     const SearchTarget<Real>& target;
     const Box& box;
     std::uint32_t group;
+    bool in_root;
     const SearchRay<Real>& ray;  ///< in the system that decides
 
     HWY_INLINE TriangleHit<Real> triangle(const TrianglePack& pack, int lane, PrimitiveId id, Real t_last) const
     {
         const RootTriangle<Real> tested =
-            HWY_LIKELY(target.hits == Hits::root) ? target.geometry->triangle_of(group, id) : local(pack, lane, id);
+            HWY_LIKELY(in_root) ? target.geometry->triangle_of(group, id) : local(pack, lane, id);
         return intersect_precisely(tested, ray, target.precision, t_last);
     }
 
     Real quadric(PrimitiveId id, RayMask mask) const
     {
-        if (target.hits == Hits::root) return intersect_rounded(target.geometry->quadric_of(group, id), ray, mask);
+        if (in_root) return intersect_rounded(target.geometry->quadric_of(group, id), ray, mask);
         const auto found = std::lower_bound(box.quadrics.begin(), box.quadrics.end(), id,
                                             [](const RootQuadric& q, PrimitiveId wanted) { return q.id < wanted; });
         return intersect_rounded(*found, ray, mask);
@@ -41,8 +42,7 @@ struct BoxPrimitives {
     /// The same of a primitive that no pack holds.
     TriangleHit<Real> alone(PrimitiveId id, Real t_last) const
     {
-        const RootTriangle<Real> tested =
-            target.hits == Hits::root ? target.geometry->triangle_of(group, id) : local_of(id);
+        const RootTriangle<Real> tested = in_root ? target.geometry->triangle_of(group, id) : local_of(id);
         return intersect_precisely(tested, ray, target.precision, t_last);
     }
 
@@ -80,7 +80,7 @@ struct World {
         const Placed& placed = (*target.placed)[number];
         const glm::dvec3 o = placed.local_from_root.point(glm::dvec3(quest.ray.origin)),
                          d = placed.local_from_root.vector(glm::dvec3(quest.ray.direction));
-        if (HWY_LIKELY(target.hits == Hits::root)) return search_box(quest, placed, quest.ray, o, d, placed.loose);
+        if (HWY_LIKELY(placed.in_root)) return search_box(quest, placed, quest.ray, o, d, placed.loose);
         using Vec = typename SearchRay<Real>::Vec;
         return search_box(quest, placed, {Vec(o), Vec(d), quest.ray.t_min, quest.ray.t_max}, o, d, 1.0f);
     }
@@ -92,7 +92,7 @@ struct World {
                                  const glm::dvec3& d, float loose) const
     {
         const GridStructure* inside = placed.box->enter();
-        const BoxPrimitives<Real> primitives{target, *placed.box, placed.group, ray};
+        const BoxPrimitives<Real> primitives{target, *placed.box, placed.group, placed.in_root, ray};
         if (HWY_UNLIKELY(!inside)) return one_by_one(quest, *placed.plan, primitives);
         Search<Quest, BoxPrimitives<Real>> search{quest, primitives, inside};
         return search.begin(o, d, target.precision == Precision::fast ? loose : 0.0f) &&
@@ -105,17 +105,7 @@ struct World {
     {
         const Group& group = target.scene->groups[plan.group];
         for (const PrimitiveRange& range : plan.primitives)
-            for (PrimitiveId id = range.first; id < range.first + range.count; ++id) {
-                quest.cost.add_quadric();
-                TriangleHit<Real> found;
-                if (id - group.first >= group.triangles) {
-                    found.t = primitives.quadric(id, quest.mask);
-                    found.hit = std::isfinite(found.t);
-                } else if (id != quest.hit.id && admits(quest.mask, target.geometry->transmits(id))) {
-                    found = primitives.alone(id, quest.hit.t);
-                }
-                if (found.hit && quest.take(found.t, found.u, found.v, id) && Quest::query == Query::any) return true;
-            }
+            if (test_one_by_one(quest, group, range.first, range.count, *target.geometry, primitives)) return true;
         return false;
     }
 };

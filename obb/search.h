@@ -15,6 +15,7 @@ struct Placed {
     const Box* box = nullptr;              ///< null for supergrids
     const BoxPlan* plan = nullptr;         ///< of the box
     const BoxedGrid* supergrid = nullptr;  ///< null for boxes
+    bool in_root = true;                   ///< hits in the box are decided in the root system, not in the box's own
     std::uint32_t group = 0;               ///< whose primitives the box holds
     float loose = 1.0f;                    ///< how much larger the test's errors are in the box's system: see FilterRay
     Transform local_from_root;
@@ -26,7 +27,6 @@ struct SearchTarget {
     const Scene* scene;
     const RootGeometry<Real>* geometry;
     Precision precision;
-    Hits hits;
     const BoxedGrid* scenery;           ///< with the boxes that stand among it; null where there is none
     const BoxedGrid* outer;             ///< boxes that every ray looks for; null where there are none
     const std::vector<Placed>* placed;  ///< by item number

@@ -26,6 +26,15 @@ struct BasicAabb {
     Vec size() const { return hi - lo; }
 };
 
+/// The largest coordinate in magnitude of any point of a box; 0 where it is empty.
+template <typename Real>
+Real largest_coordinate(const BasicAabb<Real>& box)
+{
+    if (box.empty()) return Real(0);
+    const auto farthest = glm::max(glm::abs(box.lo), glm::abs(box.hi));
+    return glm::max(glm::max(farthest.x, farthest.y), farthest.z);
+}
+
 using Aabb = BasicAabb<float>;
 using DAabb = BasicAabb<double>;
 

@@ -44,6 +44,26 @@ HWY_INLINE std::uint32_t oriented_boxes_met(const BoxPack& pack, const WalkRay& 
     return found;
 }
 
+/// Tests `count` primitives of a group from `first` on, none of them in a structure; returns whether the ray is done.
+/// primitives  what is tested: `alone(id, t_last)` and `quadric(id, mask)`
+template <class Quest, class Primitives>
+HWY_INLINE bool test_one_by_one(Quest& quest, const Group& group, PrimitiveId first, std::uint32_t count,
+                                const RootGeometry<typename Quest::Real>& geometry, const Primitives& primitives)
+{
+    for (PrimitiveId id = first; id < first + count; ++id) {
+        quest.cost.add_test();
+        TriangleHit<typename Quest::Real> found;
+        if (id - group.first >= group.triangles) {
+            found.t = primitives.quadric(id, quest.mask);
+            found.hit = std::isfinite(found.t);
+        } else if (id != quest.hit.id && admits(quest.mask, geometry.transmits(id))) {
+            found = primitives.alone(id, quest.hit.t);
+        }
+        if (found.hit && quest.take(found.t, found.u, found.v, id) && Quest::query == Query::any) return true;
+    }
+    return false;
+}
+
 /// What a resolver says of a cell where boxes may stand.
 template <class OwnVoxel>
 struct VoxelWithBoxes {

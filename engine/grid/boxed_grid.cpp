@@ -128,8 +128,7 @@ BoxedGrid grid_of_items(std::span<const Item> items, bool as_list)
     GridStructure& structure = result.structure;
     Aabb bounds;
     for (const Item& item : items) bounds.grow(item.bounds);
-    const glm::vec3 farthest = glm::max(glm::abs(bounds.lo), glm::abs(bounds.hi));
-    structure.largest = std::max(std::max(farthest.x, farthest.y), farthest.z);
+    structure.largest = largest_coordinate(bounds);
     structure.pad = std::max(structure.largest * pad_factor, 1e-30f);
     Grid top;
     top.lo = bounds.lo - structure.pad;
@@ -141,6 +140,17 @@ BoxedGrid grid_of_items(std::span<const Item> items, bool as_list)
     structure.cells.resize(top.cells());
     result.insert(items);
     return result;
+}
+
+BoxedGrid place_items(BoxedGrid* around, std::span<const Item> items, bool as_list)
+{
+    std::vector<Item> among, outside;
+    for (const Item& item : items) (around && around->has_room_for(item) ? among : outside).push_back(item);
+    if (around) {
+        around->remove_items();
+        around->insert(among);
+    }
+    return outside.empty() ? BoxedGrid{} : grid_of_items(outside, as_list);
 }
 
 Item make_item(std::uint32_t number, const Transform& local_from_root, const Transform& root_from_local,

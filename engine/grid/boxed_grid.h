@@ -63,6 +63,10 @@ struct BoxedGrid {
 /// A grid around items alone; one cell where they fit into a pack or `as_list` asks for it.
 BoxedGrid grid_of_items(std::span<const Item> items, bool as_list);
 
+/// Takes out what stands in a grid and puts those of the items into it that it has room for; returns a grid of the rest.
+/// around  null: there is no such grid
+BoxedGrid place_items(BoxedGrid* around, std::span<const Item> items, bool as_list);
+
 /// Error bounds of rays against oriented boxes scale with the largest coordinate: half ulps 128, where directions,
 /// places and t err by at most 50 together.
 inline constexpr float box_pad_factor = 0x1p-17f;

@@ -169,8 +169,7 @@ Beginning begin(GridEntries& entries, GridStructure& structure)
     for (const Aabb& box : entries.boxes) begun.bounds.grow(box);
     begun.bounds.grow(entries.room);
     if (begun.bounds.empty()) begun.bounds = {glm::vec3(0.0f), glm::vec3(0.0f)};
-    const glm::vec3 farthest = glm::max(glm::abs(begun.bounds.lo), glm::abs(begun.bounds.hi));
-    structure.largest = std::max(std::max(farthest.x, farthest.y), farthest.z);
+    structure.largest = largest_coordinate(begun.bounds);
     structure.blur = entries.blur;
     structure.pad = entries.pad = std::max(structure.largest * pad_factor + entries.blur, 1e-30f);
 

@@ -23,7 +23,7 @@ enum class Query { closest, any };
 struct NoCost {
     void add_cell() {}
     void add_tests(const TrianglePack&) {}
-    void add_quadric() {}
+    void add_test() {}
 };
 
 /// Counts what a ray does.
@@ -34,7 +34,7 @@ struct CountCost {
     {
         for (const std::uint32_t id : pack.id) cost->tests += id != no_primitive;
     }
-    void add_quadric() { ++cost->tests; }
+    void add_test() { ++cost->tests; }
 };
 
 /// A ray on its way: what it looks for and what it has found, in whatever structures it meets.
@@ -175,7 +175,7 @@ struct Search {
     {
         for (std::uint32_t q = 0; q < voxel.quadrics; ++q) {
             const PrimitiveId id = structure->quadrics[voxel.first_quadric + q];
-            quest.cost.add_quadric();
+            quest.cost.add_test();
             const Real t = primitives.quadric(id, quest.mask);
             if (std::isfinite(t) && offer(t, 0, 0, id)) return true;
         }
