@@ -31,7 +31,7 @@ public:
     {
         geometry_.update_on_touch(pose);
         ledger_.begin_frame();
-        dropped_ = 0;
+        dropped_ = regridded_ = 0;
         if (!is_built_) build_scenery();
         const bool moved = drop_moved();
         if (own_.top == LazyTop::groups)
@@ -72,7 +72,7 @@ private:
     BoxedGrid around_;                   ///< the scenery's top grid, with boxes of groups in it
     BoxedGrid outer_;
     std::vector<std::uint32_t> there_;  ///< numbers of the items in this frame
-    std::uint64_t kept_ = 0, dropped_ = 0, moving_ = 0;
+    std::uint64_t kept_ = 0, dropped_ = 0, moving_ = 0, regridded_ = 0;
 };
 
 template <typename Real>
@@ -80,15 +80,11 @@ void LazyStrategy<Real>::build_scenery()
 {
     is_built_ = true;
     if (scene_.groups[0].primitives() == 0) return;
-    geometry_.touch(0);
-    PrimitiveList primitives;
-    geometry_.list(0, primitives);
-    GridEntries entries = make_entries(geometry_, primitives, options_.executor);
-    Aabb own;
-    for (const Aabb& box : entries.boxes) own.grow(box);
-    entries.room = room_for_movers(scene_, bounds_, own);
-    scenery_ = std::make_unique<LazyGrid>(std::move(entries), shape_, ledger_, options_.executor);
+    scenery_ =
+        std::make_unique<LazyGrid>(scenery_entries(geometry_, room_of_movers(scene_, bounds_), options_.executor),
+                                   shape_, ledger_, options_.executor);
     around_.structure = scenery_->top();
+    regridded_ = scene_.groups[0].primitives();
 }
 
 /// Gives up what was built of groups that stand otherwise now; returns whether there are any.
@@ -114,9 +110,8 @@ void LazyStrategy<Real>::place_groups(const Pose& pose)
     for (std::uint32_t group = 1; group < scene_.groups.size(); ++group) {
         if (!pose.is_visible(scene_.groups[group]) || bounds_[group].empty()) continue;
         there_.push_back(group);
-        const DAabb box = transformed(bounds_[group], pose.root_from_node[scene_.groups[group].node]);
-        for (int axis = 0; axis < 3; ++axis)
-            largest = std::max({largest, std::abs(box.lo[axis]), std::abs(box.hi[axis])});
+        const Transform& root_from_node = pose.root_from_node[scene_.groups[group].node];
+        largest = std::max(largest, largest_coordinate(transformed(bounds_[group], root_from_node)));
     }
     const double wide = std::max(largest * static_cast<double>(box_pad_factor), 1e-30);
     std::vector<Item> items;
@@ -142,6 +137,7 @@ void LazyStrategy<Real>::place_primitives(const Pose& pose)
     if (primitives.size() > 0) {
         there_.push_back(everything_that_moves);
         moving_ = primitives.size();
+        regridded_ += moving_;
         const LazyGrid& grid = groups_.gather(primitives, options_.executor);
         const GridStructure& top = grid.top();
         const DAabb box{top.grids[0].lo, top.grids[0].hi()};
@@ -154,11 +150,7 @@ void LazyStrategy<Real>::place_primitives(const Pose& pose)
 template <typename Real>
 void LazyStrategy<Real>::place(std::span<const Item> items)
 {
-    std::vector<Item> among, outside;
-    for (const Item& item : items) (scenery_ && around_.has_room_for(item) ? among : outside).push_back(item);
-    around_.remove_items();
-    if (!among.empty()) around_.insert(among);
-    outer_ = outside.empty() ? BoxedGrid{} : grid_of_items(outside, false);
+    outer_ = place_items(scenery_ ? &around_ : nullptr, items, false);
 }
 
 template <typename Real>
@@ -169,7 +161,6 @@ StructureReport LazyStrategy<Real>::report() const
         const GridStructure& top = grid.top();
         ++report.grids;
         report.voxels += top.cells.size();
-        report.bytes += grid.bytes();
         for (std::uint32_t cell = 0; cell < top.cells.size(); ++cell) {
             report.filled_voxels += !grid.listed(cell).empty();
             const GridStructure* built = grid.built(cell);
@@ -192,6 +183,7 @@ StructureReport LazyStrategy<Real>::report() const
     }
     report.kept_voxels = kept_;
     report.dropped_voxels = dropped_;
+    report.regridded = regridded_;
     report.refused_builds = ledger_.refused();
     report.lazy_build_ms = ledger_.milliseconds();
     report.bytes =

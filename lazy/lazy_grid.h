@@ -20,9 +20,9 @@ struct VoxelCounts {
 
 /// A recursive grid of which only the top level is there at first. A voxel's triangles are put into packs, and its
 /// subgrid is made, when the first ray enters it, by that ray's thread and once; until then its list is what is
-/// searched. source  Lext and Akenine-Moller 2001, section 3.2; M. McNeill et al., "Performance of Space Subdivision
-/// Techniques in
-///         Ray Tracing", 1992
+/// searched.
+/// source  Lext and Akenine-Moller 2001, section 3.2;
+///         M. McNeill et al., "Performance of Space Subdivision Techniques in Ray Tracing", 1992
 class LazyGrid {
 public:
     /// entries  in the root system

@@ -20,18 +20,12 @@ Transform usable(const Pose& start, std::uint32_t node)
 }  // namespace
 
 template <typename Real>
-void ObbStrategy<Real>::build(const Pose& now)
+void ObbStrategy<Real>::build()
 {
     // What is kept is made for the start of the animation, whichever frame comes first, and for wherever things go.
     const Pose start = pose(scene_, scene_.start);
-    const DAabb everything = bounds(start);
-    if (!everything.empty())
-        for (int axis = 0; axis < 3; ++axis)
-            largest_ = std::max({largest_, std::abs(everything.lo[axis]), std::abs(everything.hi[axis])});
-    const Aabb room = room_of_movers(scene_, group_bounds(scene_));
-    for (int axis = 0; axis < 3 && !room.empty(); ++axis)
-        largest_ = std::max(
-            {largest_, static_cast<double>(std::abs(room.lo[axis])), static_cast<double>(std::abs(room.hi[axis]))});
+    const Aabb movers = room_of_movers(scene_, group_bounds(scene_));
+    largest_ = std::max(largest_coordinate(bounds(start)), static_cast<double>(largest_coordinate(movers)));
     const auto make = [&](std::size_t number) {
         const auto index = static_cast<std::uint32_t>(number);
         if (!group_of(index).deforming) make_first(index, usable(start, group_of(index).node));
@@ -55,25 +49,18 @@ void ObbStrategy<Real>::build(const Pose& now)
         axes_.push_back(choose_axes(places, inverse(root_from_cluster).linear));
     }
     axes_.resize(std::max<std::size_t>(axes_.size(), 1));
-    build_scenery(now);
+    build_scenery(movers);
 }
 
 template <typename Real>
-void ObbStrategy<Real>::build_scenery(const Pose&)
+void ObbStrategy<Real>::build_scenery(const Aabb& movers)
 {
-    const Group& group = scene_.groups[0];
-    has_scenery_ = group.primitives() > 0;
+    has_scenery_ = scene_.groups[0].primitives() > 0;
     if (!has_scenery_) return;
-    geometry_.touch(0);
-    PrimitiveList primitives;
-    geometry_.list(0, primitives);
-    GridEntries entries = make_entries(geometry_, primitives, options_.executor);
-    Aabb own;
-    for (const Aabb& box : entries.boxes) own.grow(box);
-    entries.room = room_for_movers(scene_, group_bounds(scene_), own);
     std::uint64_t built_bytes = 0;
-    scenery_.structure = build_grid(std::move(entries), maker_.grid, options_.executor, built_bytes);
-    regridded_ += group.primitives();
+    scenery_.structure =
+        build_grid(scenery_entries(geometry_, movers, options_.executor), maker_.grid, options_.executor, built_bytes);
+    regridded_ += scene_.groups[0].primitives();
     peak_bytes_ += built_bytes;
 }
 
@@ -174,17 +161,15 @@ void ObbStrategy<Real>::place_clusters(const Pose& pose)
     for (const BoxPlace& place : places_)
         if (place.is_there) largest = std::max(largest, place.largest);
     const double wide = std::max(largest * static_cast<double>(box_pad_factor), 1e-30);
-    std::vector<Item> among, outside;
+    std::vector<Item> items;
     for (std::uint32_t i = 0; i < hierarchy_.clusters.size(); ++i) {
         supergrids_[i] = {};
         const auto places = places_of(hierarchy_.clusters[i]);
         if (std::none_of(places.begin(), places.end(), [](const BoxPlace& place) { return place.is_there; })) continue;
-        const Item item = make_item_of(i, pose, wide);
-        (own_.top == Top::grid && has_scenery_ && scenery_.has_room_for(item) ? among : outside).push_back(item);
+        items.push_back(make_item_of(i, pose, wide));
     }
-    scenery_.remove_items();
-    if (!among.empty()) scenery_.insert(among);
-    outer_ = outside.empty() ? BoxedGrid{} : grid_of_items(outside, own_.top == Top::list);
+    const bool is_among = own_.top == Top::grid && has_scenery_;
+    outer_ = place_items(is_among ? &scenery_ : nullptr, items, own_.top == Top::list);
 }
 
 template <typename Real>

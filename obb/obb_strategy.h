@@ -38,7 +38,7 @@ public:
     {
         geometry_.update_on_touch(pose);
         regridded_ = 0;
-        if (axes_.empty()) build(pose);
+        if (axes_.empty()) build();
         for (std::uint32_t number = 0; number < boxes_.size(); ++number) move_box(number, pose);
         place_clusters(pose);
     }
@@ -63,8 +63,8 @@ private:
         return std::span(places_).subspan(cluster.first_box, cluster.boxes);
     }
 
-    void build(const Pose& pose);
-    void build_scenery(const Pose& pose);
+    void build();
+    void build_scenery(const Aabb& movers);
     void make_first(std::uint32_t number, const Transform& root_from_node);
     void make_fit(std::uint32_t number, const Fit& fit, const Transform& root_from_node, double largest);
     void move_box(std::uint32_t number, const Pose& pose);

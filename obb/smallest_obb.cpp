@@ -89,7 +89,8 @@ void keep_best(std::vector<Frame>& frames, std::size_t count)
     if (frames.size() > count) frames.resize(count);
 }
 
-/// Adds to `some` those of `all` that stick out of its box along `axes` the most. returns  whether there were any
+/// Adds to `some` those of `all` that stick out of its box along `axes` the most.
+/// returns  whether there were any
 bool add_missing(PointSet& some, const PointSet& all, const glm::dmat3& axes)
 {
     constexpr double rounding = 1e-14;  // of points that are about 1 large

@@ -17,7 +17,8 @@ std::vector<image::Aov> parse_aovs(std::string_view text);
 bool any_cost(std::span<const image::Aov> aovs);
 
 /// Refuses a pattern that the pictures to come do not fit: one file for several frames, layers in a PNG, another
-/// format. throws  UsageError
+/// format.
+/// throws  UsageError
 void check_pattern(const std::string& pattern, std::size_t frames, bool layers);
 
 /// The pattern with its run of # replaced by the frame's number, padded with zeros to the run's length.

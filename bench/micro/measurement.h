@@ -56,7 +56,8 @@ struct Measurement {
 /// Checks every strategy's answers on all rays of all frames, then times update and rays on one thread. Strategies take
 /// turns frame by frame, so that a machine that speeds up or slows down does so for all; rounds follow the animation,
 /// so that an update always comes from another frame. A strategy that differs in more than 0.1 % of the rays, or throws
-/// Error, is not timed. throws Error when the reference does
+/// Error, is not timed.
+/// throws Error when the reference does
 Measurement measure(const Scene& scene, const MeasurePlan& plan);
 
 }  // namespace firstray

@@ -30,7 +30,8 @@ public:
     /// Places the quadrics of the listed groups.
     /// body_from_group  by index into `groups` of list()
     void place_quadrics(const Scene& scene, std::span<const Transform> body_from_group);
-    /// Builds. throws Error
+    /// Builds.
+    /// throws Error
     void commit();
 
     RTCScene scene() const { return scene_.get(); }

@@ -40,7 +40,8 @@ public:
 
     SceneHandle new_scene(const BuildChoice& choice) const;
     GeometryHandle new_geometry(RTCGeometryType type, RTCBuildQuality quality) const;
-    /// Builds what changed. throws Error when Embree reports a fault since the last call
+    /// Builds what changed.
+    /// throws Error when Embree reports a fault since the last call
     void commit(RTCScene scene) const;
 
     std::uint64_t bytes() const { return static_cast<std::uint64_t>(bytes_.load()); }

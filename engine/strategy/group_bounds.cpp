@@ -76,11 +76,22 @@ Aabb room_of_movers(const Scene& scene, std::span<const DAabb> bounds)
     return room;
 }
 
-Aabb room_for_movers(const Scene& scene, std::span<const DAabb> bounds, const Aabb& scenery)
+template <typename Real>
+GridEntries scenery_entries(const RootGeometry<Real>& geometry, const Aabb& movers, const Executor* executor)
 {
-    Aabb room = room_of_movers(scene, bounds);
-    room.grow(scenery);
-    return half_area(room.size()) <= most_room * half_area(scenery.size()) ? room : Aabb{};
+    geometry.touch(0);
+    PrimitiveList primitives;
+    geometry.list(0, primitives);
+    GridEntries entries = make_entries(geometry, primitives, executor);
+    Aabb own;
+    for (const Aabb& box : entries.boxes) own.grow(box);
+    Aabb room = movers;
+    room.grow(own);
+    if (half_area(room.size()) <= most_room * half_area(own.size())) entries.room = room;
+    return entries;
 }
+
+template GridEntries scenery_entries(const RootGeometry<float>&, const Aabb&, const Executor*);
+template GridEntries scenery_entries(const RootGeometry<double>&, const Aabb&, const Executor*);
 
 }  // namespace firstray

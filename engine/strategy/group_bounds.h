@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "engine/core/aabb.h"
+#include "engine/grid/entries.h"
 #include "engine/scene/scene.h"
 
 namespace firstray {
@@ -15,9 +16,11 @@ std::vector<DAabb> group_bounds(const Scene& scene);
 /// bounds  group_bounds(scene)
 Aabb room_of_movers(const Scene& scene, std::span<const DAabb> bounds);
 
-/// The room that a grid over the scenery should cover, so that what moves among it is inside: nothing more (an empty
-/// box) where that would make it much larger.
-Aabb room_for_movers(const Scene& scene, std::span<const DAabb> bounds, const Aabb& scenery);
+/// What a grid over the scenery is built from; the scenery is carried now. The grid has room for what moves among it,
+/// where that does not make it much larger. Runs alone.
+/// movers  room_of_movers(...)
+template <typename Real>
+GridEntries scenery_entries(const RootGeometry<Real>& geometry, const Aabb& movers, const Executor* executor);
 
 /// An axis-aligned box around a transformed one.
 DAabb transformed(const DAabb& box, const Transform& transform);

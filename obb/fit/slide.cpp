@@ -76,7 +76,8 @@ glm::dmat3 flush_axes(const glm::dmat3& axes, const Edge& a, const Edge& b, doub
     return result;
 }
 
-/// Searches the angle, from 0. returns  infinite cost where the edges are too far from flush
+/// Searches the angle, from 0.
+/// returns  infinite cost where the edges are too far from flush
 Frame slide_along(const NearPoints& points, const Frame& start, const Edge& a, const Edge& b)
 {
     const auto at = [&](double angle) {
