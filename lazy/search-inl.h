@@ -6,7 +6,7 @@
 #define FIRSTRAY_LAZY_SEARCH_INL_H_
 #endif
 
-#include "engine/grid/box_search-inl.h"
+#include "engine/grid/beam_box_search-inl.h"
 #include "lazy/search.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -79,6 +79,51 @@ struct LazySearch : Search<Quest, RootPrimitives<typename Quest::Real>> {
     }
 };
 
+/// The same for beams.
+template <class BeamQuest>
+struct LazyBeamSearch : BeamSearch<BeamQuest, BeamRootPrimitives> {
+    using Base = BeamSearch<BeamQuest, BeamRootPrimitives>;
+
+    const LazyGrid* grid;
+
+    LazyBeamSearch(BeamQuest& q, const BeamRootPrimitives& p, const GridStructure& top, const LazyGrid* lazy)
+        : Base{q, q.root, p, &top, q.precision == Precision::fast ? 1.0f : 0.0f}, grid(lazy)
+    {
+    }
+
+    HWY_INLINE void visit(const LazyVoxel& voxel, PacketMask packets, const LazyResolver&)
+    {
+        const GridStructure* built = grid->voxel(voxel.cell);
+        if (HWY_UNLIKELY(!built)) return unbuilt(voxel.cell, packets);
+        this->structure = built;
+        if (built->cells.size() == 1)
+            Base::list(built->lists[0], packets);
+        else
+            walk_slices(built->grids[0], this->beam, packets, this->wide, EagerResolver(*built), *this);
+    }
+    template <class Voxel, class Resolver>
+    HWY_INLINE void visit(const Voxel& voxel, PacketMask packets, const Resolver& resolve)
+    {
+        Base::visit(voxel, packets, resolve);
+    }
+
+    /// Tests what a cell lists, sixteen at a time.
+    HWY_NOINLINE void unbuilt(std::uint32_t cell, PacketMask packets)
+    {
+        const GridEntries& entries = grid->entries();
+        PackOfPieces pack;
+        for (const std::uint32_t entry : grid->listed(cell)) {
+            if (!entries.is_triangle(entry)) {
+                this->quadric(this->primitives.quadric(entries.ids[entry]), packets);
+                continue;
+            }
+            pack.add(entries.triangles[entry], entries.ids[entry]);
+            if (pack.is_full()) this->pack(pack.take(), packets);
+        }
+        if (!pack.is_empty()) this->pack(pack.take(), packets);
+    }
+};
+
 /// The primitives of a group that may not be carried yet, and is not to be.
 template <typename Real>
 struct GroupPrimitives {
@@ -122,7 +167,29 @@ struct World {
     }
 };
 
-/// A ray's whole search.
+/// What the items are for beams: see BeamBoxSearch.
+struct BeamWorld {
+    const SearchTarget<float>& target;
+
+    const BoxedGrid* supergrid(std::uint32_t) const { return nullptr; }
+
+    template <class BeamQuest>
+    HWY_NOINLINE void enter_beam(std::uint32_t group, BeamQuest& quest, PacketMask packets) const
+    {
+        const LazyGrid* grid = target.groups->grid(group);
+        if (HWY_UNLIKELY(!grid)) {
+            const World<float> world{target};
+            return quest.each_ray(packets, quest.root, [&](auto& single) { world.enter(group, single); });
+        }
+        const BeamRootPrimitives primitives{*target.geometry};
+        LazyBeamSearch<BeamQuest> search(quest, primitives, grid->top(), grid);
+        search.begin();
+        search.list(grid->top().large, packets);
+        walk_slices(grid->top().grids[0], quest.root, packets, search.wide, LazyResolver(grid->top()), search);
+    }
+};
+
+/// A ray's whole search, and a beam's.
 template <typename Real>
 struct Searcher {
     const SearchTarget<Real>& target;
@@ -136,7 +203,24 @@ struct Searcher {
         if (target.scenery) search(*target.around, target.scenery, quest);
     }
 
+    template <class BeamQuest>
+    void beam(BeamQuest& quest) const
+    {
+        visits.begin_ray(target.scene->groups.size());
+        if (target.outer) search_beam(*target.outer, nullptr, quest);
+        if (target.scenery) search_beam(*target.around, target.scenery, quest);
+    }
+
 private:
+    template <class BeamQuest>
+    void search_beam(const BoxedGrid& grid, const LazyGrid* lazy, BeamQuest& quest) const
+    {
+        const BeamRootPrimitives primitives{*target.geometry};
+        LazyBeamSearch<BeamQuest> among(quest, primitives, grid.structure, lazy);
+        const BeamWorld world{target};
+        BeamBoxSearch(quest, world, visits, among, LazyResolver(grid.structure)).run(grid);
+    }
+
     template <class Quest>
     bool search(const BoxedGrid& grid, const LazyGrid* lazy, Quest& quest) const
     {

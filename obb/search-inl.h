@@ -6,7 +6,8 @@
 #define FIRSTRAY_OBB_SEARCH_INL_H_
 #endif
 
-#include "engine/grid/box_search-inl.h"
+#include "engine/grid/beam_box_search-inl.h"
+#include "engine/grid/beam_transform-inl.h"
 #include "obb/search.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -110,7 +111,44 @@ struct World {
     }
 };
 
-/// A ray's whole search.
+/// The primitives of a box where they stand in the root system, for beams.
+struct BoxBeamPrimitives {
+    const RootGeometry<float>& geometry;
+    std::uint32_t group;
+    RootTriangle<float> triangle(const TrianglePack&, int, PrimitiveId id) const
+    {
+        return geometry.triangle_of(group, id);
+    }
+    RootQuadric quadric(PrimitiveId id) const { return geometry.quadric_of(group, id); }
+};
+
+/// What the items are for beams: see BeamBoxSearch.
+struct BeamWorld {
+    const SearchTarget<float>& target;
+
+    const BoxedGrid* supergrid(std::uint32_t number) const { return (*target.placed)[number].supergrid; }
+
+    template <class BeamQuest>
+    HWY_NOINLINE void enter_beam(std::uint32_t number, BeamQuest& quest, PacketMask packets) const
+    {
+        const Placed& placed = (*target.placed)[number];
+        const GridStructure* inside = placed.in_root ? placed.box->enter() : nullptr;
+        PacketMask alone = packets;
+        if (HWY_LIKELY(inside)) {
+            Beam local;
+            const PacketMask straight = transform(quest.root, packets, placed.local_from_root, local);
+            const BoxBeamPrimitives primitives{*target.geometry, placed.group};
+            BeamSearch<BeamQuest, BoxBeamPrimitives> search{quest, local, primitives, inside,
+                                                            target.precision == Precision::fast ? placed.loose : 0.0f};
+            search.run(straight, EagerResolver(*inside));
+            alone &= ~straight;
+        }
+        const World<float> world{target};
+        quest.each_ray(alone, quest.root, [&](auto& single) { world.enter(number, single); });
+    }
+};
+
+/// A ray's whole search, and a beam's.
 template <typename Real>
 struct Searcher {
     const SearchTarget<Real>& target;
@@ -124,7 +162,25 @@ struct Searcher {
         if (target.scenery) search(*target.scenery, quest);
     }
 
+    template <class BeamQuest>
+    void beam(BeamQuest& quest) const
+    {
+        visits.begin_ray(target.placed->size());
+        if (target.outer) search_beam(*target.outer, quest);
+        if (target.scenery) search_beam(*target.scenery, quest);
+    }
+
 private:
+    template <class BeamQuest>
+    void search_beam(const BoxedGrid& grid, BeamQuest& quest) const
+    {
+        const BeamRootPrimitives primitives{*target.geometry};
+        BeamSearch<BeamQuest, BeamRootPrimitives> among{quest, quest.root, primitives, &grid.structure,
+                                                        target.precision == Precision::fast ? 1.0f : 0.0f};
+        const BeamWorld world{target};
+        BeamBoxSearch(quest, world, visits, among, EagerResolver(grid.structure)).run(grid);
+    }
+
     template <class Quest>
     HWY_INLINE bool search(const BoxedGrid& grid, Quest& quest) const
     {

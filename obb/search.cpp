@@ -13,19 +13,19 @@ namespace HWY_NAMESPACE {
 
 void closest_float(const SearchTarget<float>& target, Visits& visits, RayTile<float>& tile)
 {
-    search_tile<Query::closest>(tile, Searcher<float>{target, visits});
+    search_tile<Query::closest>(tile, target.precision, Searcher<float>{target, visits});
 }
 void closest_double(const SearchTarget<double>& target, Visits& visits, RayTile<double>& tile)
 {
-    search_tile<Query::closest>(tile, Searcher<double>{target, visits});
+    search_tile<Query::closest>(tile, target.precision, Searcher<double>{target, visits});
 }
 void any_float(const SearchTarget<float>& target, Visits& visits, RayTile<float>& tile)
 {
-    search_tile<Query::any>(tile, Searcher<float>{target, visits});
+    search_tile<Query::any>(tile, target.precision, Searcher<float>{target, visits});
 }
 void any_double(const SearchTarget<double>& target, Visits& visits, RayTile<double>& tile)
 {
-    search_tile<Query::any>(tile, Searcher<double>{target, visits});
+    search_tile<Query::any>(tile, target.precision, Searcher<double>{target, visits});
 }
 
 }  // namespace HWY_NAMESPACE

@@ -13,8 +13,7 @@ std::string instruction_set();
 
 /// Uses one of instruction_sets() from now on, in the whole process, or the best for an empty name. Not while anything
 /// is traced. All give the same hits; this is for tests and measurements.
-/// throws  std::invalid_argument for a name that
-/// is not in instruction_sets()
+/// throws  std::invalid_argument for a name that is not in instruction_sets()
 void use_instruction_set(std::string_view name);
 
 }  // namespace firstray

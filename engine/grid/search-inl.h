@@ -275,30 +275,26 @@ HWY_INLINE void search_root(const SearchTarget<typename Quest::Real>& target, co
         search.run(resolve);
 }
 
-/// Sends every ray of a tile on its quest: `searcher(quest)` searches whatever there is.
+/// Sends one ray of a tile on its quest.
 template <Query query, typename Real, class Searcher>
-HWY_INLINE void search_tile(RayTile<Real>& tile, const Searcher& searcher)
+HWY_INLINE void search_ray(RayTile<Real>& tile, int lane, const Searcher& searcher)
 {
     using Clock = std::chrono::steady_clock;
-    RayCost unasked;
-    for (int lane = 0; lane < tile.count; ++lane) {
-        tile.primitive[static_cast<std::size_t>(lane)] = no_primitive;
-        SearchRay<Real> ray;
-        if (!make_search_ray(tile, lane, ray)) continue;
-        if constexpr (std::is_same_v<Real, float>) {  // counting is a small part of what double costs
-            if (tile.cost == nullptr) {
-                Quest<query, Real, NoCost> quest{ray, tile.mask, {}, {ray.t_max}};
-                searcher(quest);
-                store_hit(ray, quest.hit, tile, lane);
-                continue;
-            }
+    SearchRay<Real> ray;
+    if (!make_search_ray(tile, lane, ray)) return;
+    if constexpr (std::is_same_v<Real, float>) {  // counting is a small part of what double costs
+        if (tile.cost == nullptr) {
+            Quest<query, Real, NoCost> quest{ray, tile.mask, {}, {ray.t_max}};
+            searcher(quest);
+            return store_hit(ray, quest.hit, tile, lane);
         }
-        const Clock::time_point begin = Clock::now();
-        Quest<query, Real, CountCost> quest{ray, tile.mask, {tile.cost ? tile.cost + lane : &unasked}, {ray.t_max}};
-        searcher(quest);
-        store_hit(ray, quest.hit, tile, lane);
-        quest.cost.cost->nanoseconds += static_cast<std::uint64_t>((Clock::now() - begin).count());
     }
+    RayCost unasked;
+    const Clock::time_point begin = Clock::now();
+    Quest<query, Real, CountCost> quest{ray, tile.mask, {tile.cost ? tile.cost + lane : &unasked}, {ray.t_max}};
+    searcher(quest);
+    store_hit(ray, quest.hit, tile, lane);
+    quest.cost.cost->nanoseconds += static_cast<std::uint64_t>((Clock::now() - begin).count());
 }
 
 }  // namespace HWY_NAMESPACE

@@ -5,7 +5,7 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include "engine/grid/search-inl.h"
+#include "engine/grid/beam_search-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace firstray {
@@ -20,23 +20,31 @@ struct GridSearcher {
     {
         search_root(target, EagerResolver(*target.structure), quest);
     }
+    template <class BeamQuest>
+    void beam(BeamQuest& quest) const
+    {
+        const BeamRootPrimitives primitives{*target.geometry};
+        BeamSearch<BeamQuest, BeamRootPrimitives> search{quest, quest.root, primitives, target.structure,
+                                                         target.precision == Precision::fast ? 1.0f : 0.0f};
+        search.run(quest.root.packets, EagerResolver(*target.structure));
+    }
 };
 
 void closest_float(const SearchTarget<float>& target, RayTile<float>& tile)
 {
-    search_tile<Query::closest>(tile, GridSearcher<float>{target});
+    search_tile<Query::closest>(tile, target.precision, GridSearcher<float>{target});
 }
 void closest_double(const SearchTarget<double>& target, RayTile<double>& tile)
 {
-    search_tile<Query::closest>(tile, GridSearcher<double>{target});
+    search_tile<Query::closest>(tile, target.precision, GridSearcher<double>{target});
 }
 void any_float(const SearchTarget<float>& target, RayTile<float>& tile)
 {
-    search_tile<Query::any>(tile, GridSearcher<float>{target});
+    search_tile<Query::any>(tile, target.precision, GridSearcher<float>{target});
 }
 void any_double(const SearchTarget<double>& target, RayTile<double>& tile)
 {
-    search_tile<Query::any>(tile, GridSearcher<double>{target});
+    search_tile<Query::any>(tile, target.precision, GridSearcher<double>{target});
 }
 
 }  // namespace HWY_NAMESPACE

@@ -5,7 +5,7 @@
 
 namespace firstray {
 
-/// Which items of boxed grids a ray has been sent into already: never twice into the same. One for each thread.
+/// Which items of boxed grids a ray, or a beam, has been sent into already: never twice into the same. One for each thread.
 class Visits {
 public:
     void begin_ray(std::size_t items)
@@ -19,6 +19,8 @@ public:
         last_[item] = ray_;
         return first;
     }
+
+    bool was_visited(std::uint32_t item) const { return last_[item] == ray_; }
 
     /// Rays are numbered through on a thread, so that visits in one structure say nothing about another.
     static Visits& of_this_thread();

@@ -1,0 +1,303 @@
+// Wide kernels of beams: packets side by side against a box or a triangle, and the sixteen rays of a packet against a
+// triangle. Included once per instruction set; what they return does not depend on it.
+#if defined(FIRSTRAY_BEAM_KERNELS_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef FIRSTRAY_BEAM_KERNELS_INL_H_
+#undef FIRSTRAY_BEAM_KERNELS_INL_H_
+#else
+#define FIRSTRAY_BEAM_KERNELS_INL_H_
+#endif
+
+#include "engine/grid/beam.h"
+#include "engine/primitive/intersect.h"
+#include "engine/primitive/pack_kernels-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace firstray {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+inline constexpr int kernel_lanes = static_cast<int>(hn::MaxLanes(PackLanes()));
+
+/// The packets among those asked for, all below `count`, for which `test(first)` says so; it is asked of a register of
+/// packets at a time.
+template <class Test>
+HWY_INLINE PacketMask packets_where(int count, PacketMask asked, const Test& test)
+{
+    const PackLanes d;
+    PacketMask found = 0;
+    for (int first = 0; first < count; first += kernel_lanes) {
+        if (((asked >> first) & ((PacketMask{1} << kernel_lanes) - 1)) == 0) continue;
+        found |= PacketMask{bits_of(d, test(first))} << first;
+    }
+    return found & asked;
+}
+
+/// A box along the axes u, v, k of a beam, relative to its apex, k as depth; widened for the beam's rounding.
+struct BeamBox {
+    float lo_u, hi_u, lo_v, hi_v, near, far;
+};
+
+/// lo, hi  corners in the structure's system
+/// wide    by how much it is widened
+HWY_INLINE BeamBox beam_box(const Beam& beam, const glm::vec3& lo, const glm::vec3& hi, float wide)
+{
+    const float a = beam.forward * (lo[beam.k] - beam.apex[2]), b = beam.forward * (hi[beam.k] - beam.apex[2]);
+    return {lo[beam.u] - beam.apex[0] - wide, hi[beam.u] - beam.apex[0] + wide, lo[beam.v] - beam.apex[1] - wide,
+            hi[beam.v] - beam.apex[1] + wide, std::max(std::min(a, b) - wide, 0.0f), std::max(a, b) + wide};
+}
+
+/// Packets that may have a ray in the box before it ends.
+HWY_INLINE PacketMask packets_meeting(const Beam& beam, const BeamBox& box, PacketMask asked)
+{
+    if (box.far < 0.0f) return 0;
+    const PackLanes d;
+    const auto near = hn::Set(d, box.near), far = hn::Set(d, box.far);
+    return packets_where(beam.count, asked, [&](int first) HWY_ATTR {
+        const auto lo_u = hn::Load(d, beam.lo_u + first), hi_u = hn::Load(d, beam.hi_u + first);
+        const auto lo_v = hn::Load(d, beam.lo_v + first), hi_v = hn::Load(d, beam.hi_v + first);
+        const auto apart = hn::Or(
+            hn::Or(hn::Gt(hn::Min(hn::Mul(lo_u, near), hn::Mul(lo_u, far)), hn::Set(d, box.hi_u)),
+                   hn::Lt(hn::Max(hn::Mul(hi_u, near), hn::Mul(hi_u, far)), hn::Set(d, box.lo_u))),
+            hn::Or(hn::Gt(hn::Min(hn::Mul(lo_v, near), hn::Mul(lo_v, far)), hn::Set(d, box.hi_v)),
+                   hn::Lt(hn::Max(hn::Mul(hi_v, near), hn::Mul(hi_v, far)), hn::Set(d, box.lo_v))));
+        return hn::AndNot(apart, hn::Ge(hn::Load(d, beam.reach + first), near));
+    });
+}
+
+/// Which boxes of a block any ray of the beam may meet.
+HWY_INLINE std::uint32_t boxes_meeting(const PackBoxes& boxes, const Beam& beam, float wide)
+{
+    const PackLanes d;
+    const bool up = beam.forward > 0.0f;
+    const auto forward = hn::Set(d, beam.forward), widen = hn::Set(d, wide), zero = hn::Zero(d);
+    const auto apex_k = hn::Set(d, beam.apex[2]);
+    std::uint32_t found = 0;
+    for (int lane = 0; lane < pack_size; lane += kernel_lanes) {
+        const auto depth = [&](const float* side) HWY_ATTR {
+            return hn::Mul(forward, hn::Sub(hn::Load(d, side + lane), apex_k));
+        };
+        const auto near = hn::Max(hn::Sub(depth((up ? boxes.lo : boxes.hi)[beam.k]), widen), zero),
+                   far = hn::Add(depth((up ? boxes.hi : boxes.lo)[beam.k]), widen);
+        auto met = hn::Ge(far, zero);
+        for (int side = 0; side < 2; ++side) {
+            const int axis = side == 0 ? beam.u : beam.v;
+            const auto shift = hn::Set(d, beam.apex[side]), lo = hn::Set(d, beam.lo[side]), hi = hn::Set(d, beam.hi[side]);
+            const auto box_lo = hn::Sub(hn::Sub(hn::Load(d, boxes.lo[axis] + lane), shift), widen),
+                       box_hi = hn::Add(hn::Sub(hn::Load(d, boxes.hi[axis] + lane), shift), widen);
+            met = hn::And(met, hn::Le(hn::Min(hn::Mul(lo, near), hn::Mul(lo, far)), box_hi));
+            met = hn::And(met, hn::Ge(hn::Max(hn::Mul(hi, near), hn::Mul(hi, far)), box_lo));
+        }
+        found |= bits_of(d, met) << lane;
+    }
+    return found;
+}
+
+/// Sixteen triangles as a beam sees them: which side of each edge a ray passes, as a linear function of its slopes,
+/// positive where it may meet the triangle.
+struct BeamTriangles {
+    alignas(64) float side[3][3][pack_size];  ///< edge; factor of u, of v, constant; lane
+    alignas(64) float error[pack_size];       ///< bound on the error of a side
+    alignas(64) float near[pack_size];        ///< least depth
+};
+
+/// blur   how far a corner that the test sees may be from its place in the pack, per coordinate
+/// loose  see make_filter_ray
+/// Returns the lanes that any ray of the beam may meet.
+HWY_INLINE std::uint32_t make_beam_triangles(const TrianglePack& pack, const Beam& beam, float wide, float blur,
+                                             float loose, BeamTriangles& out)
+{
+    const PackLanes d;
+    using V = hn::Vec<PackLanes>;
+    const int axes[3] = {beam.u, beam.v, beam.k};
+    const float off = 2.0f * blur;
+    const auto per_edge = hn::Set(d, 24.0f * off), least_error = hn::Set(d, 4.0f * off * off + least_bound<float>);
+    const auto per_size = hn::Set(d, (2.0f + loose) * side_error<float> * beam.steepest);
+    std::uint32_t found = 0;
+    for (int lane = 0; lane < pack_size; lane += kernel_lanes) {
+        V a[3][3];  // corner, axis: relative to the apex
+        for (int corner = 0; corner < 3; ++corner)
+            for (int axis = 0; axis < 3; ++axis) {
+                a[corner][axis] =
+                    hn::Sub(hn::Load(d, pack.v[corner][axes[axis]] + lane), hn::Set(d, beam.apex[axis]));
+                if (axis == 2) a[corner][2] = hn::Mul(a[corner][2], hn::Set(d, beam.forward));
+            }
+        const auto near = hn::Min(hn::Min(a[0][2], a[1][2]), a[2][2]);
+        const auto edge = hn::Load(d, pack.edge + lane);
+        auto distance = hn::Max(hn::Abs(a[0][0]), hn::Max(hn::Abs(a[0][1]), hn::Abs(a[0][2])));
+        distance = hn::Add(distance, edge);
+        const auto size = hn::Mul(edge, distance);
+        auto error = hn::MulAdd(per_size, size, hn::MulAdd(per_edge, edge, least_error));
+
+        V n[3][3];  // edge, axis
+        for (int e = 0; e < 3; ++e) {
+            const int i = (e + 1) % 3, j = (e + 2) % 3;
+            const V ex = hn::Sub(a[j][0], a[i][0]), ey = hn::Sub(a[j][1], a[i][1]), ez = hn::Sub(a[j][2], a[i][2]);
+            const V sx = hn::Add(a[j][0], a[i][0]), sy = hn::Add(a[j][1], a[i][1]), sz = hn::Add(a[j][2], a[i][2]);
+            n[e][0] = hn::MulSub(ey, sz, hn::Mul(ez, sy));
+            n[e][1] = hn::MulSub(ez, sx, hn::Mul(ex, sz));
+            n[e][2] = hn::MulSub(ex, sy, hn::Mul(ey, sx));
+        }
+        // The volume between the apex and the triangle has the sign that the sides of a hit have. Seen edge-on, both
+        // signs may occur: nothing is certain then.
+        const V volume = hn::MulAdd(n[0][0], a[0][0], hn::MulAdd(n[0][1], a[0][1], hn::Mul(n[0][2], a[0][2])));
+        const V doubt = hn::Mul(hn::Set(d, 4.0f), hn::Mul(error, distance));
+        error = hn::IfThenElse(hn::Gt(hn::Abs(volume), doubt), error, hn::Set(d, std::numeric_limits<float>::infinity()));
+        const auto flip = hn::And(volume, hn::SignBit(d));
+        const auto far = hn::Max(hn::Max(a[0][2], a[1][2]), a[2][2]);
+        auto apart = hn::Lt(hn::Add(far, hn::Set(d, wide)), hn::Zero(d));
+        for (int e = 0; e < 3; ++e) {
+            for (int axis = 0; axis < 3; ++axis) {
+                n[e][axis] = hn::Xor(n[e][axis], flip);
+                hn::Store(n[e][axis], d, out.side[e][axis] + lane);
+            }
+            const auto most = hn::Add(
+                hn::Add(hn::Max(hn::Mul(n[e][0], hn::Set(d, beam.lo[0])), hn::Mul(n[e][0], hn::Set(d, beam.hi[0]))),
+                        hn::Max(hn::Mul(n[e][1], hn::Set(d, beam.lo[1])), hn::Mul(n[e][1], hn::Set(d, beam.hi[1])))),
+                n[e][2]);
+            apart = hn::Or(apart, hn::Lt(hn::Add(most, error), hn::Zero(d)));
+        }
+        hn::Store(error, d, out.error + lane);
+        hn::Store(hn::Sub(near, hn::Set(d, wide)), d, out.near + lane);
+        const auto used = hn::Eq(edge, edge);
+        found |= bits_of(d, hn::AndNot(apart, used)) << lane;
+    }
+    return found;
+}
+
+/// Packets that may have a ray that meets a triangle before it ends.
+HWY_INLINE PacketMask packets_meeting(const Beam& beam, const BeamTriangles& triangles, int lane, PacketMask asked)
+{
+    const PackLanes d;
+    const float* u_at[3];
+    const float* v_at[3];
+    hn::Vec<PackLanes> n[3][3];
+    for (int e = 0; e < 3; ++e) {
+        u_at[e] = triangles.side[e][0][lane] > 0.0f ? beam.hi_u : beam.lo_u;
+        v_at[e] = triangles.side[e][1][lane] > 0.0f ? beam.hi_v : beam.lo_v;
+        for (int axis = 0; axis < 3; ++axis) n[e][axis] = hn::Set(d, triangles.side[e][axis][lane]);
+    }
+    const auto error = hn::Set(d, -triangles.error[lane]), near = hn::Set(d, triangles.near[lane]);
+    return packets_where(beam.count, asked, [&](int first) HWY_ATTR {
+        auto apart = hn::Lt(hn::Load(d, beam.reach + first), near);
+        for (int e = 0; e < 3; ++e) {
+            const auto most = hn::MulAdd(n[e][0], hn::Load(d, u_at[e] + first),
+                                         hn::MulAdd(n[e][1], hn::Load(d, v_at[e] + first), n[e][2]));
+            apart = hn::Or(apart, hn::Lt(most, error));
+        }
+        return hn::Not(apart);
+    });
+}
+
+/// A triangle as all rays from one apex see it: what triangle.h computes before the direction comes in, and the same
+/// bits.
+struct ApexTriangle {
+    glm::vec3 side[3];    ///< its dot product with a direction is the side u, v, w
+    glm::vec3 normal;     ///< Ng
+    float height, span, distance, edge;
+    bool has_volume;      ///< float's t can be trusted, as far as this goes
+};
+
+HWY_INLINE ApexTriangle make_apex_triangle(const RootTriangle<float>& t, const glm::vec3& apex)
+{
+    const glm::vec3 a0 = t.v[0] - apex, a1 = t.v[1] - apex, a2 = t.v[2] - apex;
+    const glm::vec3 e1 = t.v[0] - t.v[2], e2 = t.v[1] - t.v[0];
+    ApexTriangle p;
+    p.side[0] = cross_as_written<float>(t.v[2] - t.v[1], a1 + a2);
+    p.side[1] = cross_as_written<float>(e1, a2 + a0);
+    p.side[2] = cross_as_written<float>(e2, a0 + a1);
+    p.normal = cross_as_written<float>(e1, e2);
+    p.height = dot_as_written<float>(p.normal, a0);
+    p.span = largest_component<float>(e1) * largest_component<float>(e2);
+    p.distance = largest_component<float>(a0) + t.edge;
+    p.edge = t.edge;
+    const float volume = p.span * p.distance;
+    p.has_volume = volume > least_bound<float> && volume < most_volume;
+    return p;
+}
+
+/// What sixteen rays found.
+struct PacketHits {
+    std::uint32_t hits = 0;       ///< rays whose best hit this is now: written to the beam's rays
+    std::uint32_t uncertain = 0;  ///< rays that only the test of single rays can decide
+};
+
+/// intersect() of triangle.h for the sixteen rays from `first` on, and taking the hit where it counts.
+HWY_INLINE PacketHits test_packet(const ApexTriangle& p, PrimitiveId id, bool exact_signs, BeamRays& rays, int first)
+{
+    const PackLanes d;
+    const hn::RebindToUnsigned<PackLanes> du;
+    using V = hn::Vec<PackLanes>;
+    const auto set = [&](float x) HWY_ATTR { return hn::Set(d, x); };
+    PacketHits result;
+    for (int lane = first; lane < first + packet_size; lane += kernel_lanes) {
+        const V x = hn::Load(d, rays.direction[0].data() + lane), y = hn::Load(d, rays.direction[1].data() + lane),
+                z = hn::Load(d, rays.direction[2].data() + lane), length = hn::Load(d, rays.length.data() + lane);
+        const V t_min = hn::Load(d, rays.t_min.data() + lane), t_last = hn::Load(d, rays.t.data() + lane);
+        const auto dot = [&](const glm::vec3& n) HWY_ATTR {
+            return hn::Add(hn::Add(hn::Mul(set(n.x), x), hn::Mul(set(n.y), y)), hn::Mul(set(n.z), z));
+        };
+        const V u = dot(p.side[0]), v = dot(p.side[1]), w = dot(p.side[2]);
+        const V least = hn::Min(hn::Min(u, v), w), most = hn::Max(hn::Max(u, v), w);
+        const V error = hn::Mul(set(side_error<float>), hn::Mul(set(p.edge * p.distance), length));
+        const auto is_bounded = hn::Ge(error, set(least_bound<float>));
+        const auto not_done = hn::Lt(t_min, t_last);
+        auto maybe = not_done;
+        if (exact_signs)
+            maybe = hn::AndNot(hn::And(is_bounded, hn::And(hn::Lt(least, hn::Neg(error)), hn::Gt(most, error))), maybe);
+        else
+            maybe = hn::And(maybe, hn::Or(hn::Ge(least, set(0.0f)), hn::Le(most, set(0.0f))));
+        if (hn::AllFalse(d, maybe)) continue;
+
+        const V slope = dot(p.normal), t = hn::Div(set(p.height), slope), t_size = hn::Abs(t);
+        const auto is_sloped =
+            p.has_volume ? hn::Gt(hn::Abs(slope), hn::Mul(set(least_slope), hn::Mul(set(p.span), length)))
+                         : hn::FirstN(d, 0);
+        const auto is_placed =
+            hn::And(is_sloped, hn::Ge(hn::Mul(t_size, length), set(least_distance * p.distance)));
+        const V t_error = hn::Mul(set(quotient_error), hn::Add(t_size, hn::Div(set(p.distance), length)));
+        const auto is_outside = hn::Or(hn::Lt(hn::Add(t, t_error), t_min), hn::Gt(hn::Sub(t, t_error), t_last));
+        const auto in_range = hn::And(hn::Gt(t, t_min), hn::Le(t, t_last));
+        maybe = hn::AndNot(hn::And(is_placed, hn::Not(in_range)), maybe);
+        maybe = hn::AndNot(hn::And(hn::AndNot(is_placed, is_sloped), is_outside), maybe);
+        if (hn::AllFalse(d, maybe)) continue;
+
+        const auto is_certain =
+            exact_signs ? hn::And(is_bounded, hn::Or(hn::Gt(least, error), hn::Lt(most, hn::Neg(error))))
+                        : (p.distance <= farthest_fast * p.edge ? is_sloped : hn::FirstN(d, 0));
+        const auto hit = hn::And(maybe, hn::And(is_placed, is_certain));
+        result.uncertain |= bits_of(d, hn::AndNot(hit, maybe)) << (lane - first);
+
+        const auto old_id = hn::Load(du, rays.id.data() + lane), new_id = hn::Set(du, id);
+        const auto wins_tie = hn::RebindMask(d, hn::And(hn::Lt(new_id, old_id), hn::Ne(old_id, hn::Set(du, no_primitive))));
+        const auto counts = hn::And(hit, hn::Or(hn::Lt(t, t_last), hn::And(hn::Eq(t, t_last), wins_tie)));
+        const std::uint32_t bits = bits_of(d, counts);
+        if (bits == 0) continue;
+        result.hits |= bits << (lane - first);
+        const V scale = hn::Div(set(1.0f), hn::Add(hn::Add(u, v), w));
+        hn::BlendedStore(t, counts, d, rays.t.data() + lane);
+        hn::BlendedStore(hn::Mul(v, scale), counts, d, rays.u.data() + lane);
+        hn::BlendedStore(hn::Mul(w, scale), counts, d, rays.v.data() + lane);
+        hn::BlendedStore(new_id, hn::RebindMask(du, counts), du, rays.id.data() + lane);
+    }
+    return result;
+}
+
+/// The depth beyond which nothing can beat a packet's hits; minus infinity where all rays are done.
+HWY_INLINE float reach_of(const BeamRays& rays, const Beam& root, int packet)
+{
+    const PackLanes d;
+    const int axis = root.k;
+    auto reach = hn::Set(d, -std::numeric_limits<float>::infinity());
+    for (int lane = packet * packet_size; lane < (packet + 1) * packet_size; lane += kernel_lanes) {
+        const auto speed = hn::Abs(hn::Load(d, rays.direction[axis].data() + lane));
+        reach = hn::Max(reach, hn::Mul(speed, hn::Load(d, rays.t.data() + lane)));
+    }
+    const float farthest = hn::GetLane(hn::MaxOfLanes(d, reach));
+    return farthest < 0.0f ? farthest : farthest + farthest * t_slack;
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace firstray
+HWY_AFTER_NAMESPACE();
+
+#endif  // include guard per instruction set

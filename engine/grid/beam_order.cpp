@@ -1,0 +1,194 @@
+#include "engine/grid/beam_order.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace firstray {
+namespace {
+
+constexpr int directions = 6;  // an axis, forward or back
+
+BeamAxes axes_of_class(int number)
+{
+    const int k = number >> 1;
+    return {k == 0 ? 1 : 0, k == 2 ? 1 : 2, k, (number & 1) != 0 ? -1.0f : 1.0f};
+}
+
+int class_of(const glm::vec3& d)
+{
+    const glm::vec3 size = glm::abs(d);
+    const int k = size.x > size.y ? (size.x > size.z ? 0 : 2) : (size.y > size.z ? 1 : 2);
+    return 2 * k + (d[k] < 0.0f);
+}
+
+bool goes_along(const glm::vec3& d, const BeamAxes& axes)
+{
+    const float speed = d[axes.k] * axes.forward, end = speed * most_slope;
+    return speed >= shortest_beam_ray && speed < longest_beam_ray && std::abs(d[axes.u]) <= end &&
+           std::abs(d[axes.v]) <= end;
+}
+
+/// Rays sorted by where they lie in the beam: their places on a Morton curve of 256 x 256 squares.
+struct Sorted {
+    static constexpr int capacity = RayTile<float>::capacity;
+    std::uint32_t key[capacity];  ///< place << 16 | index in the part
+    float u[capacity], v[capacity];  ///< slopes, by index in the part
+};
+
+std::uint32_t spread(std::uint32_t x)
+{
+    x = (x | (x << 4)) & 0x0f0fu;
+    x = (x | (x << 2)) & 0x3333u;
+    return (x | (x << 1)) & 0x5555u;
+}
+
+/// By the upper half of the keys, eight bits at a time.
+void sort(std::uint32_t* keys, int count)
+{
+    std::uint32_t other[Sorted::capacity];
+    std::uint32_t* from = keys;
+    std::uint32_t* to = other;
+    for (const int shift : {16, 24}) {
+        int place[256] = {};
+        for (int i = 0; i < count; ++i) ++place[(from[i] >> shift) & 255u];
+        for (int digit = 0, sum = 0; digit < 256; ++digit) sum += std::exchange(place[digit], sum);
+        for (int i = 0; i < count; ++i) to[place[(from[i] >> shift) & 255u]++] = from[i];
+        std::swap(from, to);
+    }
+}
+
+struct Square {
+    float lo_u = 1e30f, lo_v = 1e30f, hi_u = -1e30f, hi_v = -1e30f;
+    float area(float least) const
+    {
+        return lo_u > hi_u ? 0.0f : std::max(hi_u - lo_u, least) * std::max(hi_v - lo_v, least);
+    }
+};
+
+Square around(const Sorted& sorted, int begin, int end)
+{
+    Square s;
+    for (int i = begin; i < end; ++i) {
+        const std::uint32_t ray = sorted.key[i] & 0xffffu;
+        s.lo_u = std::min(s.lo_u, sorted.u[ray]);
+        s.hi_u = std::max(s.hi_u, sorted.u[ray]);
+        s.lo_v = std::min(s.lo_v, sorted.v[ray]);
+        s.hi_v = std::max(s.hi_v, sorted.v[ray]);
+    }
+    return s;
+}
+
+/// Calls emit(begin, end) for runs of rays that fill the square around them.
+template <typename Emit>
+void for_each_cluster(const Sorted& sorted, int begin, int end, int shift, float area, float least, const Emit& emit)
+{
+    constexpr float worth_cutting = 0.5f;
+    if (end - begin <= packet_size || shift < 16) return emit(begin, end);
+    int cut[5] = {begin, begin, begin, begin, end};
+    for (int quarter = 1; quarter < 4; ++quarter)
+        cut[quarter] = static_cast<int>(
+            std::partition_point(sorted.key + cut[quarter - 1], sorted.key + end,
+                                 [&](std::uint32_t key) { return static_cast<int>((key >> shift) & 3u) < quarter; }) -
+            sorted.key);
+    float areas[4], sum = 0.0f;
+    for (int quarter = 0; quarter < 4; ++quarter)
+        sum += areas[quarter] = around(sorted, cut[quarter], cut[quarter + 1]).area(least);
+    if (sum > worth_cutting * area) return emit(begin, end);
+    for (int quarter = 0; quarter < 4; ++quarter)
+        if (cut[quarter] < cut[quarter + 1])
+            for_each_cluster(sorted, cut[quarter], cut[quarter + 1], shift - 2, areas[quarter], least, emit);
+}
+
+}  // namespace
+
+BeamAxes axes_of(const glm::vec3& direction)
+{
+    return axes_of_class(class_of(direction));
+}
+
+void BeamOrder::take_all(int rays, const BeamAxes& axes)
+{
+    for (int i = 0; i < rays; ++i) lanes[i] = i;
+    parts[count++] = {0, rays, axes};
+}
+
+void BeamOrder::split(const RayTile<float>& tile)
+{
+    constexpr std::uint8_t alone = directions;
+    std::uint8_t number[capacity];
+    int rays[directions + 1] = {};
+    for (int lane = 0; lane < tile.count; ++lane) {
+        const auto i = static_cast<std::size_t>(lane);
+        const glm::vec3 d = tile.direction_of(lane);
+        const int own = class_of(d);
+        const bool fits = goes_along(d, axes_of_class(own)) && tile.t_min[i] >= 0.0f && tile.t_min[i] < tile.t_max[i];
+        number[i] = fits ? static_cast<std::uint8_t>(own) : alone;
+        ++rays[number[i]];
+    }
+    const int most = static_cast<int>(std::max_element(rays, rays + directions) - rays);
+    const BeamAxes main = axes_of_class(most);
+    int place[directions + 1] = {};
+    std::fill_n(rays, directions + 1, 0);
+    for (int lane = 0; lane < tile.count; ++lane) {
+        std::uint8_t& own = number[lane];
+        if (own != alone && goes_along(tile.direction_of(lane), main)) own = static_cast<std::uint8_t>(most);
+        ++rays[own];
+    }
+    for (int n = 0, first = 0; n < directions; first += rays[n++]) {
+        place[n] = first;
+        if (rays[n] > 0) add({first, rays[n], axes_of_class(n)});
+    }
+    for (int lane = 0; lane < tile.count; ++lane) {
+        if (number[lane] == alone)
+            single[singles++] = lane;
+        else
+            lanes[place[number[lane]]++] = lane;
+    }
+    int kept = 0;
+    for (int p = 0; p < count; ++p) {
+        const BeamPart part = parts[p];
+        if (part.count >= fewest_rays)
+            parts[kept++] = part;
+        else
+            for (int i = part.first; i < part.first + part.count; ++i) single[singles++] = lanes[i];
+    }
+    count = kept;
+}
+
+void BeamOrder::cluster(const RayTile<float>& tile, const BeamPart& part, const float (&bounds)[4])
+{
+    Sorted sorted;
+    const float wide_u = std::max(bounds[2] - bounds[0], 1e-20f), wide_v = std::max(bounds[3] - bounds[1], 1e-20f);
+    for (int i = 0; i < part.count; ++i) {
+        const glm::vec3 d = tile.direction_of(lanes[part.first + i]);
+        const float inverse = part.axes.forward / d[part.axes.k];
+        sorted.u[i] = d[part.axes.u] * inverse;
+        sorted.v[i] = d[part.axes.v] * inverse;
+        const auto square = [](float x, float lo, float wide) {
+            return static_cast<std::uint32_t>(std::clamp((x - lo) / wide * 256.0f, 0.0f, 255.0f));
+        };
+        const std::uint32_t place =
+            spread(square(sorted.u[i], bounds[0], wide_u)) | spread(square(sorted.v[i], bounds[1], wide_v)) << 1;
+        sorted.key[i] = place << 16 | static_cast<std::uint32_t>(i);
+    }
+    sort(sorted.key, part.count);
+
+    std::int32_t moved[capacity];
+    for (int i = 0; i < part.count; ++i) moved[i] = lanes[part.first + static_cast<int>(sorted.key[i] & 0xffffu)];
+    std::copy(moved, moved + part.count, lanes + part.first);
+    const float least = std::max(wide_u, wide_v) / 256.0f;
+    for_each_cluster(sorted, 0, part.count, 30, wide_u * wide_v, least, [&](int begin, int end) {
+        if (end - begin >= fewest_rays)
+            add({part.first + begin, end - begin, part.axes});
+        else
+            for (int i = begin; i < end; ++i) single[singles++] = lanes[part.first + i];
+    });
+}
+
+void BeamOrder::add(const BeamPart& part)
+{
+    parts[count++] = part;
+}
+
+}  // namespace firstray

@@ -1,0 +1,50 @@
+#pragma once
+#include <cstdint>
+
+#include "engine/core/ray_tile.h"
+#include "engine/grid/beam.h"
+
+namespace firstray {
+
+/// The axes of a beam: k is the one along which all its rays go forward or all go back.
+struct BeamAxes {
+    int u, v, k;
+    float forward;  ///< 1 or -1
+};
+
+/// Those of the direction's largest component.
+BeamAxes axes_of(const glm::vec3& direction);
+
+/// Rays whose speed along the beam's axis is outside this range, in lengths per t, are left to the search of single
+/// rays, which rescales them.
+inline constexpr float shortest_beam_ray = 0x1p-30f, longest_beam_ray = 0x1p30f;
+
+/// Rays that walk together: lanes[first] to lanes[first + count - 1].
+struct BeamPart {
+    int first, count;
+    BeamAxes axes;
+};
+
+/// Which rays of a tile make a beam.
+struct BeamOrder {
+    static constexpr int capacity = RayTile<float>::capacity;
+    static constexpr int most_parts = 6 + capacity / fewest_rays;
+    std::int32_t lanes[capacity];   ///< the tile's, part after part
+    std::int32_t single[capacity];  ///< lanes of rays that are to be traced one by one
+    BeamPart parts[most_parts];
+    int count = 0;  ///< parts
+    int singles = 0;
+
+    /// All rays in one beam, in the tile's order.
+    void take_all(int rays, const BeamAxes& axes);
+    /// Rays along most rays' axis in one beam, the others by their own axes; what cannot be in a beam, one by one.
+    void split(const RayTile<float>& tile);
+    /// Sorts a part's rays by their slopes and cuts it where they leave large gaps: the new parts are appended.
+    /// bounds  of the slopes: least u, v, most u, v
+    void cluster(const RayTile<float>& tile, const BeamPart& part, const float (&bounds)[4]);
+
+private:
+    void add(const BeamPart& part);
+};
+
+}  // namespace firstray

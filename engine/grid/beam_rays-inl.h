@@ -1,0 +1,210 @@
+// How a tile's rays become beams. Included once per instruction set.
+#if defined(FIRSTRAY_BEAM_RAYS_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef FIRSTRAY_BEAM_RAYS_INL_H_
+#undef FIRSTRAY_BEAM_RAYS_INL_H_
+#else
+#define FIRSTRAY_BEAM_RAYS_INL_H_
+#endif
+
+#include "engine/grid/beam_kernels-inl.h"
+#include "engine/grid/beam_order.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace firstray {
+namespace HWY_NAMESPACE {
+
+/// Whether all rays of a tile can walk in one beam of a direction.
+HWY_INLINE bool all_go_along(const RayTile<float>& tile, const BeamAxes& axes)
+{
+    const PackLanes d;
+    const auto sign = hn::Set(d, axes.forward), zero = hn::Zero(d), steepest = hn::Set(d, most_slope);
+    const auto shortest = hn::Set(d, shortest_beam_ray), longest = hn::Set(d, longest_beam_ray);
+    for (int first = 0; first < tile.count; first += kernel_lanes) {
+        const auto speed = hn::Mul(sign, hn::Load(d, tile.direction[axes.k].data() + first));
+        const auto side_u = hn::Abs(hn::Load(d, tile.direction[axes.u].data() + first)),
+                   side_v = hn::Abs(hn::Load(d, tile.direction[axes.v].data() + first));
+        const auto t_min = hn::Load(d, tile.t_min.data() + first);
+        const auto end = hn::Mul(speed, steepest);
+        auto good = hn::And(hn::And(hn::Ge(speed, shortest), hn::Lt(speed, longest)),
+                            hn::And(hn::Le(side_u, end), hn::Le(side_v, end)));
+        good = hn::And(good, hn::And(hn::Ge(t_min, zero), hn::Lt(t_min, hn::Load(d, tile.t_max.data() + first))));
+        const int left = std::min(tile.count - first, kernel_lanes);
+        const std::uint32_t wanted = (2u << (left - 1)) - 1;
+        if ((bits_of(d, good) & wanted) != wanted) return false;
+    }
+    return true;
+}
+
+/// Loads rays of a tile into packets, in order; the last packet is filled up with rays that are done.
+/// lanes  the tile's, `count` of them, [1, 1024]
+HWY_INLINE void load_rays(const RayTile<float>& tile, const std::int32_t* lanes, int count, BeamRays& rays)
+{
+    const PackLanes d;
+    const hn::RebindToSigned<PackLanes> di;
+    const hn::RebindToUnsigned<PackLanes> du;
+    rays.apex = tile.apex;
+    rays.packets = (count + packet_size - 1) / packet_size;
+    alignas(64) std::int32_t padded[packet_size];
+    for (int first = 0; first < rays.packets * packet_size; first += kernel_lanes) {
+        const std::int32_t* from = lanes + first;
+        if (first + kernel_lanes > count) {
+            for (int i = 0; i < kernel_lanes; ++i) padded[i] = lanes[std::min(first + i, count - 1)];
+            from = padded;
+        }
+        const auto index = hn::LoadU(di, from);
+        const auto to = static_cast<std::size_t>(first);
+        auto length = hn::Zero(d);
+        for (int axis = 0; axis < 3; ++axis) {
+            const auto component = hn::GatherIndex(d, tile.direction[axis].data(), index);
+            hn::Store(component, d, rays.direction[axis].data() + to);
+            length = hn::Max(length, hn::Abs(component));
+        }
+        hn::Store(length, d, rays.length.data() + to);
+        hn::Store(hn::GatherIndex(d, tile.t_min.data(), index), d, rays.t_min.data() + to);
+        const auto end = hn::GatherIndex(d, tile.t_max.data(), index);
+        const auto is_ray = hn::FirstN(d, static_cast<std::size_t>(std::clamp(count - first, 0, kernel_lanes)));
+        hn::Store(hn::IfThenElse(is_ray, end, hn::Set(d, -std::numeric_limits<float>::infinity())), d,
+                  rays.t.data() + to);
+        hn::Store(hn::Set(du, no_primitive), du, rays.id.data() + to);
+    }
+}
+
+/// The beam of loaded rays, in the root system.
+HWY_INLINE void make_root_beam(const BeamRays& rays, const BeamAxes& axes, Beam& beam)
+{
+    const PackLanes d;
+    beam.u = axes.u;
+    beam.v = axes.v;
+    beam.k = axes.k;
+    beam.forward = axes.forward;
+    beam.apex[0] = rays.apex[axes.u];
+    beam.apex[1] = rays.apex[axes.v];
+    beam.apex[2] = rays.apex[axes.k];
+    beam.farthest = largest_component<float>(rays.apex);
+    beam.count = rays.packets;
+    beam.packets = first_packets(rays.packets);
+    const auto infinite = hn::Set(d, std::numeric_limits<float>::infinity()), sign = hn::Set(d, axes.forward);
+    for (int packet = 0; packet < rays.packets; ++packet) {
+        auto lo_u = infinite, lo_v = infinite, hi_u = hn::Neg(infinite), hi_v = hi_u;
+        for (int first = packet * packet_size; first < (packet + 1) * packet_size; first += kernel_lanes) {
+            const auto to = static_cast<std::size_t>(first);
+            const auto inverse = hn::Div(sign, hn::Load(d, rays.direction[axes.k].data() + to));
+            const auto u = hn::Mul(hn::Load(d, rays.direction[axes.u].data() + to), inverse);
+            const auto v = hn::Mul(hn::Load(d, rays.direction[axes.v].data() + to), inverse);
+            lo_u = hn::Min(lo_u, u);
+            hi_u = hn::Max(hi_u, u);
+            lo_v = hn::Min(lo_v, v);
+            hi_v = hn::Max(hi_v, v);
+        }
+        beam.lo_u[packet] = hn::GetLane(hn::MinOfLanes(d, lo_u));
+        beam.hi_u[packet] = hn::GetLane(hn::MaxOfLanes(d, hi_u));
+        beam.lo_v[packet] = hn::GetLane(hn::MinOfLanes(d, lo_v));
+        beam.hi_v[packet] = hn::GetLane(hn::MaxOfLanes(d, hi_v));
+        beam.reach[packet] = reach_of(rays, beam, packet);
+        beam.scale[packet] = 1.0f;
+    }
+}
+
+/// Fills up what lanes beyond the last packet hold, widens the slopes, and finds what bounds all of them.
+HWY_INLINE void finish_beam(Beam& beam)
+{
+    const PackLanes d;
+    const auto pad = hn::Set(d, slope_pad), zero = hn::Zero(d);
+    for (int packet = beam.count; packet % kernel_lanes != 0; ++packet) {
+        beam.lo_u[packet] = beam.lo_v[packet] = beam.hi_u[packet] = beam.hi_v[packet] = 0.0f;
+        beam.reach[packet] = -1.0f;
+        beam.scale[packet] = 1.0f;
+    }
+    float* const lo[2] = {beam.lo_u, beam.lo_v};
+    float* const hi[2] = {beam.hi_u, beam.hi_v};
+    beam.steepest = 1.0f;
+    for (int side = 0; side < 2; ++side) {
+        auto least = hn::Set(d, std::numeric_limits<float>::infinity()), most = hn::Neg(least);
+        for (int first = 0; first < beam.count; first += kernel_lanes) {
+            auto from = hn::Load(d, lo[side] + first), to = hn::Load(d, hi[side] + first);
+            from = hn::Sub(from, hn::MulAdd(hn::Abs(from), pad, pad));
+            to = hn::Add(to, hn::MulAdd(hn::Abs(to), pad, pad));
+            hn::Store(from, d, lo[side] + first);
+            hn::Store(to, d, hi[side] + first);
+            const auto here = hn::Ge(hn::Load(d, beam.reach + first), zero);
+            least = hn::IfThenElse(here, hn::Min(least, from), least);
+            most = hn::IfThenElse(here, hn::Max(most, to), most);
+        }
+        beam.lo[side] = hn::GetLane(hn::MinOfLanes(d, least));
+        beam.hi[side] = hn::GetLane(hn::MaxOfLanes(d, most));
+        beam.steepest = std::max(beam.steepest, std::max(std::abs(beam.lo[side]), std::abs(beam.hi[side])));
+    }
+}
+
+/// Whether the packets of a beam lie in it as neighbours in a picture do; if not, its rays end on several surfaces and
+/// are better sorted.
+HWY_INLINE bool is_well_packed(const Beam& beam)
+{
+    float sum = 0.0f;
+    for (int packet = 0; packet < beam.count; ++packet)
+        sum += (beam.hi_u[packet] - beam.lo_u[packet]) * (beam.hi_v[packet] - beam.lo_v[packet]);
+    const float all = (beam.hi[0] - beam.lo[0]) * (beam.hi[1] - beam.lo[1]);
+    return beam.count <= 1 || (sum < 0.75f * all && sum > 0.2f * all);
+}
+
+/// Puts what was found into the tile.
+HWY_INLINE void store_hits(const BeamRays& rays, const std::int32_t* lanes, int count, RayTile<float>& tile)
+{
+    for (int i = 0; i < count; ++i) {
+        const auto from = static_cast<std::size_t>(i), to = static_cast<std::size_t>(lanes[i]);
+        if (rays.id[from] == no_primitive) continue;
+        tile.primitive[to] = rays.id[from];
+        tile.t_max[to] = rays.t[from];
+        tile.u[to] = rays.u[from];
+        tile.v[to] = rays.v[from];
+    }
+}
+
+/// Sends a tile's rays on their quests as beams, and those that make none one by one.
+/// search  `search(rays, root)` searches whatever there is for a beam
+/// one     `one(lane)` does for one ray
+template <class Search, class One>
+HWY_NOINLINE void search_by_beams(RayTile<float>& tile, const Search& search, const One& one)
+{
+    BeamRays& rays = beam_rays_of_this_thread();
+    Beam root;
+    BeamOrder order;
+    const auto send = [&](const BeamPart& part) HWY_ATTR {
+        search(rays, root);
+        store_hits(rays, order.lanes + part.first, part.count, tile);
+    };
+    const auto load = [&](const BeamPart& part) HWY_ATTR {
+        load_rays(tile, order.lanes + part.first, part.count, rays);
+        make_root_beam(rays, part.axes, root);
+        finish_beam(root);
+    };
+    const BeamAxes main = axes_of(tile.direction_of(tile.count / 2));
+    if (all_go_along(tile, main))
+        order.take_all(tile.count, main);
+    else
+        order.split(tile);
+    for (int i = 0; i < order.singles; ++i) one(order.single[i]);
+    const int parts = order.count;
+    for (int p = 0; p < parts; ++p) {
+        const BeamPart part = order.parts[p];
+        load(part);
+        if (is_well_packed(root)) {
+            send(part);
+            continue;
+        }
+        const int first = order.count, single = order.singles;
+        order.cluster(tile, part, {root.lo[0], root.lo[1], root.hi[0], root.hi[1]});
+        for (int i = single; i < order.singles; ++i) one(order.single[i]);
+        for (int c = first; c < order.count; ++c) {
+            load(order.parts[c]);
+            send(order.parts[c]);
+        }
+        order.count = first;
+    }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace firstray
+HWY_AFTER_NAMESPACE();
+
+#endif  // include guard per instruction set

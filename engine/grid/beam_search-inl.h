@@ -1,0 +1,238 @@
+// What a beam does in the voxels it walks through. Included once per instruction set.
+#if defined(FIRSTRAY_BEAM_SEARCH_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef FIRSTRAY_BEAM_SEARCH_INL_H_
+#undef FIRSTRAY_BEAM_SEARCH_INL_H_
+#else
+#define FIRSTRAY_BEAM_SEARCH_INL_H_
+#endif
+
+#include "engine/grid/beam_rays-inl.h"
+#include "engine/grid/beam_walk-inl.h"
+#include "engine/grid/search-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace firstray {
+namespace HWY_NAMESPACE {
+
+/// A beam on its way: what its rays look for and what they have found, in whatever structures it meets.
+template <Query looks_for>
+struct BeamQuest {
+    static constexpr Query query = looks_for;
+
+    BeamRays& rays;
+    Beam& root;
+    Mailbox& mailbox;
+    RayMask mask;
+    Precision precision;
+
+    /// Tests a triangle against packets, `beam` being the one that walks now.
+    HWY_NOINLINE void test(const RootTriangle<float>& triangle, PrimitiveId id, PacketMask packets, Beam& beam)
+    {
+        const ApexTriangle seen = make_apex_triangle(triangle, rays.apex);
+        for (; packets != 0; packets &= packets - 1) {
+            const int packet = __builtin_ctzll(packets);
+            const PacketHits found = test_packet(seen, id, precision != Precision::fast, rays, packet * packet_size);
+            std::uint32_t hits = found.hits;
+            for (std::uint32_t rest = found.uncertain; rest != 0; rest &= rest - 1) {
+                const int lane = __builtin_ctz(rest);
+                const auto ray = static_cast<std::size_t>(packet * packet_size + lane);
+                const TriangleHit<float> hit = intersect_precisely(triangle, search_ray(ray), precision, rays.t[ray]);
+                if (hit.hit && take(ray, hit.t, hit.u, hit.v, id)) hits |= 1u << lane;
+            }
+            if (hits != 0) note_hits(packet, hits, beam);
+        }
+    }
+
+    /// Sends each ray of the packets that still looks for something on a search of its own.
+    /// search  `search(quest)`, a quest of one ray
+    template <class Search>
+    HWY_NOINLINE void each_ray(PacketMask packets, Beam& beam, const Search& search)
+    {
+        for (; packets != 0; packets &= packets - 1) {
+            const int packet = __builtin_ctzll(packets);
+            std::uint32_t hits = 0;
+            for (int lane = 0; lane < packet_size; ++lane) {
+                const auto ray = static_cast<std::size_t>(packet * packet_size + lane);
+                if (!(rays.t_min[ray] < rays.t[ray])) continue;
+                const SearchRay<float> single = search_ray(ray);
+                Quest<query, float, NoCost> quest{single, mask, {}, {rays.t[ray], rays.u[ray], rays.v[ray], rays.id[ray]}};
+                search(quest);
+                if (quest.hit.id == rays.id[ray] && quest.hit.t == rays.t[ray]) continue;
+                put(ray, quest.hit.t, quest.hit.u, quest.hit.v, quest.hit.id);
+                hits |= 1u << lane;
+            }
+            if (hits != 0) note_hits(packet, hits, beam);
+        }
+    }
+
+private:
+    SearchRay<float> search_ray(std::size_t ray) const
+    {
+        return {rays.apex, rays.direction_of(ray), rays.t_min[ray], rays.t[ray]};
+    }
+    void put(std::size_t ray, float t, float u, float v, PrimitiveId id)
+    {
+        rays.t[ray] = t;
+        rays.u[ray] = u;
+        rays.v[ray] = v;
+        rays.id[ray] = id;
+    }
+    bool take(std::size_t ray, float t, float u, float v, PrimitiveId id)
+    {
+        if (!(t > rays.t_min[ray]) || !Hit<float>{rays.t[ray], 0, 0, rays.id[ray]}.is_beaten_by(t, id)) return false;
+        put(ray, t, u, v, id);
+        return true;
+    }
+    /// Rays of a packet have hit something: it needs to reach less far, or they are done.
+    void note_hits(int packet, std::uint32_t hits, Beam& beam)
+    {
+        if constexpr (query == Query::any)
+            for (; hits != 0; hits &= hits - 1)
+                rays.t[static_cast<std::size_t>(packet * packet_size + __builtin_ctz(hits))] =
+                    -std::numeric_limits<float>::infinity();
+        root.reach[packet] = reach_of(rays, root, packet);
+        beam.reach[packet] = root.reach[packet] * beam.scale[packet];
+    }
+};
+
+/// A beam's search of one structure.
+/// Primitives  what is tested: `triangle(pack, lane, id)` and `quadric(id)`, in the root system
+template <class BeamQuest, class Primitives>
+struct BeamSearch {
+    BeamQuest& quest;
+    Beam& beam;  ///< in the structure's system
+    const Primitives& primitives;
+    const GridStructure* structure;
+    float loose;        ///< see make_filter_ray
+    float wide = 0.0f;  ///< by how much cells and boxes are widened for the beam's rounding
+
+    /// Searches everything for packets.
+    template <class Resolver>
+    HWY_INLINE void run(PacketMask packets, const Resolver& resolve)
+    {
+        begin();
+        list(structure->large, packets);
+        walk_slices(structure->grids[0], beam, packets, wide, resolve, *this);
+    }
+
+    void begin() { wide = 0x1p-21f * (structure->largest + beam.farthest); }
+
+    template <class Resolver>
+    HWY_INLINE void visit(const Voxel& voxel, PacketMask packets, const Resolver& resolve)
+    {
+        if (voxel.subgrid)
+            walk_slices(*voxel.subgrid, beam, packets, wide, resolve, *this);
+        else
+            list(*voxel.list, packets);
+    }
+
+    HWY_NOINLINE void list(const VoxelList& voxel, PacketMask packets)
+    {
+        const TrianglePack* packs = structure->packs.data() + voxel.first_pack;
+        if (voxel.packs < boxed_packs) {
+            if (voxel.packs == 1) pack(packs[0], packets);
+        } else {
+            for (std::uint32_t block = 0; block < voxel.box_blocks(); ++block)
+                boxed(structure->boxes[voxel.first_boxes + block], packs + block * pack_size, packets);
+        }
+        for (std::uint32_t q = 0; q < voxel.quadrics; ++q)
+            quadric(primitives.quadric(structure->quadrics[voxel.first_quadric + q]), packets);
+    }
+
+    HWY_INLINE void boxed(const PackBoxes& boxes, const TrianglePack* packs, PacketMask packets)
+    {
+        for (std::uint32_t met = boxes_meeting(boxes, beam, wide); met != 0; met &= met - 1) {
+            const int lane = __builtin_ctz(met);
+            const BeamBox box = beam_box(beam, {boxes.lo[0][lane], boxes.lo[1][lane], boxes.lo[2][lane]},
+                                         {boxes.hi[0][lane], boxes.hi[1][lane], boxes.hi[2][lane]}, wide);
+            if (const PacketMask inside = packets_meeting(beam, box, packets)) pack(packs[lane], inside);
+        }
+    }
+
+    HWY_NOINLINE void pack(const TrianglePack& pack, PacketMask packets)
+    {
+        BeamTriangles triangles;
+        for (std::uint32_t met = make_beam_triangles(pack, beam, wide, structure->blur, loose, triangles); met != 0;
+             met &= met - 1) {
+            const int lane = __builtin_ctz(met);
+            const std::uint32_t marked = pack.id[lane];
+            const PrimitiveId id = marked & ~transmitting_bit;
+            if (!admits(quest.mask, (marked & transmitting_bit) != 0)) continue;
+            const PacketMask untested = quest.mailbox.untested(id, packets);
+            if (untested == 0) continue;
+            const PacketMask maybe = packets_meeting(beam, triangles, lane, untested);
+            if (maybe != 0) quest.test(primitives.triangle(pack, lane, id), id, maybe, beam);
+        }
+    }
+
+    HWY_NOINLINE void quadric(const RootQuadric& quadric, PacketMask packets)
+    {
+        if (!admits(quest.mask, quadric.transmits)) return;
+        quest.each_ray(packets, beam, [&](auto& single) {
+            const float t = intersect_rounded(quadric, single.ray, single.mask);
+            if (std::isfinite(t)) single.take(t, 0.0f, 0.0f, quadric.id);
+        });
+    }
+};
+
+/// The primitives of a structure in the root system, for beams.
+struct BeamRootPrimitives {
+    const RootGeometry<float>& geometry;
+    RootTriangle<float> triangle(const TrianglePack& pack, int lane, PrimitiveId) const { return pack.triangle(lane); }
+    const RootQuadric& quadric(PrimitiveId id) const { return geometry.quadric(id); }
+};
+
+/// A pack of triangles that no structure has put together.
+class PackOfPieces {
+public:
+    bool is_empty() const { return count_ == 0; }
+    bool is_full() const { return count_ == pack_size; }
+    void add(const RootTriangle<float>& triangle, std::uint32_t id_and_bit) { pack_.set(count_++, triangle, id_and_bit); }
+    const TrianglePack& take()
+    {
+        while (count_ < pack_size) pack_.clear(count_++);
+        count_ = 0;
+        return pack_;
+    }
+
+private:
+    TrianglePack pack_;
+    int count_ = 0;
+};
+
+/// Whether rays of a tile may walk as beams: they have a common apex, and nobody asks what each of them costs.
+inline bool may_make_beams(const RayTile<float>& tile)
+{
+    const float sum = tile.apex.x + tile.apex.y + tile.apex.z;
+    return tile.common_apex && tile.cost == nullptr && tile.count >= fewest_rays && std::isfinite(sum);
+}
+
+/// Sends every ray of a tile on its quest, in beams where that is possible.
+/// searcher  `searcher(quest)` searches whatever there is for one ray, `searcher.beam(quest)` for a beam
+template <Query query, typename Real, class Searcher>
+HWY_INLINE void search_tile(RayTile<Real>& tile, Precision precision, const Searcher& searcher)
+{
+    std::fill_n(tile.primitive.begin(), tile.count, no_primitive);
+    const auto one = [&](int lane) HWY_ATTR { search_ray<query>(tile, lane, searcher); };
+    if constexpr (std::is_same_v<Real, float>) {
+        if (may_make_beams(tile)) {
+            Mailbox& mailbox = Mailbox::of_this_thread();
+            search_by_beams(
+                tile,
+                [&](BeamRays& rays, Beam& root) HWY_ATTR {
+                    mailbox.begin_beam();
+                    BeamQuest<query> quest{rays, root, mailbox, tile.mask, precision};
+                    searcher.beam(quest);
+                },
+                one);
+            return;
+        }
+    }
+    for (int lane = 0; lane < tile.count; ++lane) one(lane);
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace firstray
+HWY_AFTER_NAMESPACE();
+
+#endif  // include guard per instruction set
