@@ -282,6 +282,31 @@ HWY_INLINE PacketHits test_packet(const ApexTriangle& p, PrimitiveId id, bool ex
     return result;
 }
 
+/// Whether any ray of the packets is in a box before it ends: what packets, which are wider than their rays, only may.
+/// lo, hi  corners in the root system
+/// wide    by how much the box is widened
+HWY_INLINE bool any_ray_meets(const BeamRays& rays, PacketMask packets, const glm::vec3& lo, const glm::vec3& hi,
+                                float wide)
+{
+    const PackLanes d;
+    for (; packets != 0; packets &= packets - 1) {
+        const int begin = __builtin_ctzll(packets) * packet_size;
+        for (int lane = begin; lane < begin + packet_size; lane += kernel_lanes) {
+            const auto end = hn::Load(d, rays.t.data() + lane);
+            auto enter = hn::Load(d, rays.t_min.data() + lane), leave = hn::MulAdd(end, hn::Set(d, t_slack), end);
+            for (int axis = 0; axis < 3; ++axis) {
+                const auto inverse = hn::Div(hn::Set(d, 1.0f), hn::Load(d, rays.direction[axis].data() + lane));
+                const auto a = hn::Mul(hn::Set(d, lo[axis] - wide - rays.apex[axis]), inverse),
+                           b = hn::Mul(hn::Set(d, hi[axis] + wide - rays.apex[axis]), inverse);
+                enter = hn::Max(enter, hn::Min(a, b));
+                leave = hn::Min(leave, hn::Max(a, b));
+            }
+            if (!hn::AllFalse(d, hn::Le(enter, leave))) return true;
+        }
+    }
+    return false;
+}
+
 /// The depth beyond which nothing can beat a packet's hits; minus infinity where all rays are done.
 HWY_INLINE float reach_of(const BeamRays& rays, const Beam& root, int packet)
 {
