@@ -162,6 +162,12 @@ struct Searcher {
         if (target.scenery) search(*target.scenery, quest);
     }
 
+    float cell() const
+    {
+        if (target.scenery) return target.scenery->structure.grids[0].mean_cell();
+        return target.outer ? target.outer->structure.grids[0].mean_cell() : 1.0f;
+    }
+
     template <class BeamQuest>
     void beam(BeamQuest& quest) const
     {

@@ -146,11 +146,18 @@ HWY_INLINE void finish_beam(Beam& beam)
 
 /// Whether the packets of a beam lie in it as neighbours in a picture do; if not, its rays end on several surfaces and
 /// are better sorted.
-HWY_INLINE bool is_well_packed(const Beam& beam)
+HWY_INLINE bool is_well_packed(Beam& beam)
 {
     float sum = 0.0f;
-    for (int packet = 0; packet < beam.count; ++packet)
+    beam.lo[0] = beam.lo[1] = std::numeric_limits<float>::infinity();
+    beam.hi[0] = beam.hi[1] = -std::numeric_limits<float>::infinity();
+    for (int packet = 0; packet < beam.count; ++packet) {
         sum += (beam.hi_u[packet] - beam.lo_u[packet]) * (beam.hi_v[packet] - beam.lo_v[packet]);
+        beam.lo[0] = std::min(beam.lo[0], beam.lo_u[packet]);
+        beam.hi[0] = std::max(beam.hi[0], beam.hi_u[packet]);
+        beam.lo[1] = std::min(beam.lo[1], beam.lo_v[packet]);
+        beam.hi[1] = std::max(beam.hi[1], beam.hi_v[packet]);
+    }
     const float all = (beam.hi[0] - beam.lo[0]) * (beam.hi[1] - beam.lo[1]);
     return beam.count <= 1 || (sum < 0.75f * all && sum > 0.2f * all);
 }
@@ -187,6 +194,24 @@ HWY_INLINE void find_places(const BeamRays& rays, const Beam& root, BeamPlaces& 
     }
 }
 
+/// Packets whose rays end so far apart that each goes through cells of its own: they are left out of the beam.
+/// cell  length of a cell
+HWY_INLINE PacketMask leave_out_wide(Beam& beam, BeamRays& rays, float cell)
+{
+    PacketMask wide = 0;
+    for (int packet = 0; packet < beam.count; ++packet) {
+        const float depth = beam.reach[packet] / cell;
+        const float columns = ((beam.hi_u[packet] - beam.lo_u[packet]) * depth + 1.0f) *
+                              ((beam.hi_v[packet] - beam.lo_v[packet]) * depth + 1.0f);
+        if (!(columns > most_columns) || !(depth < 1e30f)) continue;
+        wide |= PacketMask{1} << packet;
+        beam.reach[packet] = -std::numeric_limits<float>::infinity();
+        std::fill_n(rays.t.begin() + packet * packet_size, packet_size, -std::numeric_limits<float>::infinity());
+    }
+    beam.packets &= ~wide;
+    return wide;
+}
+
 /// Puts what was found into the tile.
 /// lanes  as load_rays() took them
 HWY_INLINE void store_hits(const BeamRays& rays, const std::int32_t* lanes, int count, RayTile<float>& tile)
@@ -219,20 +244,27 @@ HWY_INLINE void store_hits(const BeamRays& rays, const std::int32_t* lanes, int 
 /// Sends a tile's rays on their quests as beams, and those that make none one by one.
 /// search  `search(rays, root)` searches whatever there is for a beam
 /// one     `one(lane)` does for one ray
+/// cell    length of a cell
 template <class Search, class One>
-HWY_NOINLINE void search_by_beams(RayTile<float>& tile, const Search& search, const One& one)
+HWY_NOINLINE void search_by_beams(RayTile<float>& tile, float cell, const Search& search, const One& one)
 {
     BeamRays& rays = beam_rays_of_this_thread();
     Beam root;
     BeamOrder order;
     const auto send = [&](const BeamPart& part) HWY_ATTR {
-        search(rays, root);
-        store_hits(rays, order.lanes_of(part), part.count, tile);
+        PacketMask wide = leave_out_wide(root, rays, cell);
+        finish_beam(root);
+        const std::int32_t* const lanes = order.lanes_of(part);
+        if (root.packets != 0) search(rays, root);
+        store_hits(rays, lanes, part.count, tile);
+        for (; wide != 0; wide &= wide - 1) {
+            const int first = __builtin_ctzll(wide) * packet_size;
+            for (int i = first; i < std::min(first + packet_size, part.count); ++i) one(lanes ? lanes[i] : i);
+        }
     };
     const auto load = [&](const BeamPart& part) HWY_ATTR {
         load_rays(tile, order.lanes_of(part), part.count, rays);
         make_root_beam(rays, part.axes, root);
-        finish_beam(root);
     };
     const BeamAxes main = axes_of(tile.direction_of(tile.count / 2));
     if (all_go_along(tile, main))

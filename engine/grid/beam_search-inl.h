@@ -218,7 +218,7 @@ HWY_INLINE void search_tile(RayTile<Real>& tile, Precision precision, const Sear
         if (may_make_beams(tile)) {
             Mailbox& mailbox = Mailbox::of_this_thread();
             search_by_beams(
-                tile,
+                tile, searcher.cell(),
                 [&](BeamRays& rays, Beam& root) HWY_ATTR {
                     mailbox.begin_beam();
                     BeamQuest<query> quest{rays, root, mailbox, tile.mask, precision};

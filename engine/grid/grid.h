@@ -1,6 +1,7 @@
 #pragma once
 #include <glm/glm.hpp>
 
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -21,6 +22,8 @@ struct alignas(16) Grid {
     std::uint32_t first_cell = 0;
 
     glm::vec3 hi() const { return lo + cell * glm::vec3(dims); }
+    /// Length of a cell, between those of its sides.
+    float mean_cell() const { return std::cbrt(cell.x * cell.y * cell.z); }
     std::uint32_t cells() const { return static_cast<std::uint32_t>(dims.x * dims.y * dims.z); }
 };
 

@@ -20,6 +20,8 @@ struct GridSearcher {
     {
         search_root(target, EagerResolver(*target.structure), quest);
     }
+    float cell() const { return target.structure->grids[0].mean_cell(); }
+
     template <class BeamQuest>
     void beam(BeamQuest& quest) const
     {
