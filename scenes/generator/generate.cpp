@@ -1,0 +1,14 @@
+#include "scenes/generator/generate.h"
+
+namespace firstray::scenes {
+
+std::span<const SceneEntry> scene_entries()
+{
+    static constexpr SceneEntry entries[] = {
+        {"crowd", "a town among hills; a street hides nearly all of it", "--triangles", "triangles in all", 1e6, 1e5,
+         1e8, true, &write_crowd},
+    };
+    return entries;
+}
+
+}  // namespace firstray::scenes
