@@ -114,12 +114,18 @@ public:
         }
     }
 
-    void person(const glm::dvec3& place, double degrees, Random& random)
+    /// On the square and in the street before the camera, out of its way.
+    void people_in_sight()
     {
-        const auto model = static_cast<std::size_t>(random.below(person_models));
-        out_->material(matt(bright_colour(random)));
-        const double size = std::round(random.between(0.92, 1.06) * 100.0) / 100.0;
-        include(models_.people[model], models_.person_triangles[model], place, degrees, size);
+        Random random(request_.seed, person_kind, person_models);
+        for (int i = 0; i < 60; ++i) {
+            const bool square = i % 2 == 0;
+            const double x =
+                square ? random.between(-22.0, 22.0) : std::copysign(random.between(1.6, 3.6), i % 4 - 2.0);
+            const double z = square ? random.between(-92.0, -66.0) : random.between(-60.0, 36.0);
+            const double degrees = random.between(0.0, 360.0);
+            if (std::hypot(x, z + 80.0) > 5.0) person(ground_.on(x, z), degrees, random);
+        }
     }
 
     void finish()
@@ -130,6 +136,14 @@ public:
     }
 
 private:
+    void person(const glm::dvec3& place, double degrees, Random& random)
+    {
+        const auto model = static_cast<std::size_t>(random.below(person_models));
+        out_->material(matt(bright_colour(random)));
+        const double size = std::round(random.between(0.92, 1.06) * 100.0) / 100.0;
+        include(models_.people[model], models_.person_triangles[model], place, degrees, size);
+    }
+
     void next_file()
     {
         if (out_) finish();
@@ -195,7 +209,8 @@ void write_patch(AffWriter& out, const Mesh& patch, const Ground& ground, bool t
     if (part.triangles.empty()) return;
     for (const glm::dvec3& p : part.positions) part.uvs.push_back(glm::dvec2(p.x, p.z) / (town ? 4.0 : 60.0));
     for (Mesh::Triangle& t : part.triangles) t.uv = t.vertex;
-    snap(part, 1e-3);
+    snap(part, 1e-2);
+    if (town) part.normals.clear();  // nearly flat
     out.material(matt(town ? glm::vec3(0.80f, 0.76f, 0.72f) : glm::vec3(0.78f, 0.82f, 0.74f)));
     out.mesh(part, texture);
 }
@@ -203,7 +218,7 @@ void write_patch(AffWriter& out, const Mesh& patch, const Ground& ground, bool t
 /// Ground of about `triangles` triangles, cut into patches.
 std::uint64_t write_ground(const Request& request, const Ground& ground, std::uint64_t triangles, AffWriter& main)
 {
-    constexpr int patch = 64;
+    constexpr int patch = 30;  // less than 1000 vertices: indices of three digits
     const int cells = std::max(8, static_cast<int>(std::lround(std::sqrt(static_cast<double>(triangles) / 2.0))));
     const double cell = 2.0 * ground.extent() / cells;
     AffWriter out(request.beside("ground.aff"));
@@ -229,8 +244,8 @@ void write_settings(AffWriter& out, const Ground& ground)
     out.view({.from = eye(0.0), .at = {0.0, 6.2, -60.0}, .angle = 46.0, .hither = 0.1, .width = 800, .height = 600});
     out.frames(0.0, seconds, 192);
     out.background({0.60f, 0.76f, 0.95f});
-    out.ambient({0.42f, 0.46f, 0.56f});
-    out.light({-1.5e4, 2.0e4, 1.1e4}, {0.88f, 0.78f, 0.60f});
+    out.ambient({0.46f, 0.49f, 0.57f});
+    out.light({-0.9e4, 2.0e4, 1.6e4}, {0.84f, 0.74f, 0.56f});
     out.keys(motion("camera", {0.0, seconds, 8}, eye, front));
 }
 
@@ -304,11 +319,7 @@ std::uint64_t write_crowd(const Request& request)
     write_church(out, shift(ground.on(0.0, -98.0)), request.name("plaster.ppm"));
     write_fountain(out, shift(ground.on(0.0, -80.0)));
     TownWriter town(request, ground, models, out);
-    Random random(request.seed, person_kind, 1000);
-    for (int i = 0; i < 24; ++i) {
-        const double x = random.between(-22.0, 22.0), z = random.between(-92.0, -66.0);
-        if (std::hypot(x, z + 80.0) > 5.0) town.person(ground.on(x, z), random.between(0.0, 360.0), random);
-    }
+    town.people_in_sight();
     for (const Block& block : blocks_around(blocks))
         if (town.triangles() < built) town.block(block, built);
     town.finish();

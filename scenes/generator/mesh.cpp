@@ -90,8 +90,8 @@ void snap(Mesh& mesh, double step)
     for (glm::dvec3& p : mesh.positions)
         for (int i = 0; i < 3; ++i) p[i] = snapped(p[i], step);
     for (glm::dvec3& n : mesh.normals)
-        for (int i = 0; i < 3; ++i) n[i] = snapped(n[i], 1e-3);
-    for (glm::dvec2& uv : mesh.uvs) uv = {snapped(uv.x, 1e-3), snapped(uv.y, 1e-3)};
+        for (int i = 0; i < 3; ++i) n[i] = snapped(n[i], 1e-2);
+    for (glm::dvec2& uv : mesh.uvs) uv = {snapped(uv.x, 1e-2), snapped(uv.y, 1e-2)};
 }
 
 Mesh part_of(const Mesh& mesh, const std::function<bool(const glm::dvec3&)>& keep)
@@ -152,29 +152,36 @@ Mesh lathe(std::span<const glm::dvec2> profile, int around)
 {
     constexpr double sharp = 0.766;  // cosine of 40 degrees
     Mesh mesh;
-    const auto ring = [&](const glm::dvec2& p, const glm::dvec2& n) {
+    const auto n = static_cast<std::uint32_t>(around), steps = size_of(profile) - 1;
+    const auto ring = [&](std::vector<glm::dvec3>& list, const glm::dvec2& p) {
         for (int i = 0; i < around; ++i) {
-            const double angle = 2.0 * M_PI * i / around, c = std::cos(angle), s = std::sin(angle);
-            mesh.positions.emplace_back(p.x * c, p.y, p.x * s);
-            mesh.normals.emplace_back(n.x * c, n.y, n.x * s);
+            const double angle = 2.0 * M_PI * i / around;
+            list.emplace_back(p.x * std::cos(angle), p.y, p.x * std::sin(angle));
         }
-        return size_of(mesh.positions) - static_cast<std::uint32_t>(around);
+        return size_of(list) - n;
     };
-    const auto normal_at = [&](std::size_t step, std::size_t end) {  // of a step, at one of its ends
-        const glm::dvec2 own = step_normal(profile[step], profile[step + 1]);
-        const std::size_t other = end == step ? step - 1 : step + 1;
-        if (other + 1 >= profile.size()) return own;  // no step there; wraps below 0
-        const glm::dvec2 next = step_normal(profile[other], profile[other + 1]);
-        return glm::dot(own, next) < sharp ? own : glm::normalize(own + next);
-    };
-    for (std::size_t k = 0; k + 1 < profile.size(); ++k) {
-        const std::uint32_t low = ring(profile[k], normal_at(k, k)), high = ring(profile[k + 1], normal_at(k, k + 1));
-        for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(around); ++i) {
-            const std::uint32_t j = (i + 1) % static_cast<std::uint32_t>(around);
-            const glm::uvec3 lower(low + i, high + j, low + j), upper(low + i, high + i, high + j);
-            if (profile[k].x > 0.0) mesh.triangles.push_back({lower, lower, {}});
-            if (profile[k + 1].x > 0.0) mesh.triangles.push_back({upper, upper, {}});
+    std::uint32_t vertex = ring(mesh.positions, profile[0]);
+    std::uint32_t normal = ring(mesh.normals, step_normal(profile[0], profile[1]));  // at the step's lower end
+    for (std::uint32_t k = 0; k < steps; ++k) {
+        const glm::dvec2 own = step_normal(profile[k], profile[k + 1]);
+        const glm::dvec2 next = k + 1 < steps ? step_normal(profile[k + 1], profile[k + 2]) : own;
+        const bool smooth = glm::dot(own, next) > sharp;
+        const std::uint32_t high_vertex = ring(mesh.positions, profile[k + 1]);
+        const std::uint32_t high_normal = ring(mesh.normals, smooth ? glm::normalize(own + next) : own);
+        for (std::uint32_t i = 0; i < n; ++i) {
+            const std::uint32_t j = (i + 1) % n;
+            const glm::uvec3 lower(i, n + j, j), upper(i, n + i, n + j);  // rings follow each other but for sharp bends
+            const auto add = [&](const glm::uvec3& t) {
+                const auto in = [&](std::uint32_t low, std::uint32_t high) {
+                    return glm::uvec3(low + t.x, (t.y < n ? low : high - n) + t.y, (t.z < n ? low : high - n) + t.z);
+                };
+                mesh.triangles.push_back({in(vertex, high_vertex), in(normal, high_normal), {}});
+            };
+            if (profile[k].x > 0.0) add(lower);
+            if (profile[k + 1].x > 0.0) add(upper);
         }
+        vertex = high_vertex;
+        normal = smooth ? high_normal : ring(mesh.normals, next);
     }
     return mesh;
 }

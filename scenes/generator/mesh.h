@@ -23,7 +23,7 @@ struct Mesh {
 
 /// Adds a copy of `part` (with as many lists filled as `mesh`), moved.
 void append(Mesh& mesh, const Mesh& part, const Transform& mesh_from_part = {});
-/// Rounds positions to multiples of `step`, normals and uvs to 1/1000: short to write.
+/// Rounds positions to multiples of `step`, normals and uvs to 1/100: short to write.
 void snap(Mesh& mesh, double step);
 
 /// The triangles whose middle `keep` accepts, without what they do not use.

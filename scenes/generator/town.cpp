@@ -9,7 +9,7 @@
 namespace firstray::scenes {
 namespace {
 
-constexpr double grain = 1e-3;  // metres: finer than anything that is seen, and short to write
+constexpr double grain = 1e-2;  // metres: finer than anything that is seen, and short to write
 
 void put(AffWriter& out, const Material& material, Mesh mesh, const Transform& place, std::string_view texture = {})
 {
