@@ -32,6 +32,7 @@ struct SceneEntry {
 /// All of them; the command and the tests loop over this.
 std::span<const SceneEntry> scene_entries();
 
+std::uint64_t write_robot(const Request& request);
 std::uint64_t write_crowd(const Request& request);
 
 }  // namespace firstray::scenes
