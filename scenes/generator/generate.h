@@ -33,6 +33,7 @@ struct SceneEntry {
 std::span<const SceneEntry> scene_entries();
 
 std::uint64_t write_robot(const Request& request);
+std::uint64_t write_robots(const Request& request);
 std::uint64_t write_crowd(const Request& request);
 
 }  // namespace firstray::scenes

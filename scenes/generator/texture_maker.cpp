@@ -135,10 +135,10 @@ void write_slabs(const std::filesystem::path& file, std::uint64_t seed)
         const int i = static_cast<int>(u * 4), j = static_cast<int>(v * 4);
         const double x = u * 4 - i, y = v * 4 - j, edge = std::min({x, y, 1.0 - x, 1.0 - y});
         const double diamond = std::abs(x - 0.5) + std::abs(y - 0.5);
-        const bool dark = (i + j) % 2 == 0 ? diamond < 0.36 : diamond > 0.64;
+        const bool dark = diamond > 0.76;  // the corners: a small square where four slabs meet
         const double vein = std::abs(clouds(u * 8 + i, v * 8 + j, 8, 4, seed) - 0.5);
-        const glm::dvec3 stone = dark ? glm::dvec3(0.42, 0.25, 0.20) : glm::dvec3(0.86, 0.80, 0.70);
-        return edge < 0.012 ? glm::dvec3(0.3, 0.27, 0.24) : stone * (0.86 + 0.10 * value_at(i, j, seed) + 0.4 * vein);
+        const glm::dvec3 stone = dark ? glm::dvec3(0.46, 0.31, 0.25) : glm::dvec3(0.84, 0.78, 0.68);
+        return edge < 0.012 ? glm::dvec3(0.52, 0.47, 0.40) : stone * (0.86 + 0.10 * value_at(i, j, seed) + 0.4 * vein);
     });
 }
 
