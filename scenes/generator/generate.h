@@ -34,6 +34,9 @@ std::span<const SceneEntry> scene_entries();
 
 std::uint64_t write_robot(const Request& request);
 std::uint64_t write_robots(const Request& request);
+std::uint64_t write_art(const Request& request);
+std::uint64_t write_stadium(const Request& request);
 std::uint64_t write_crowd(const Request& request);
+std::uint64_t write_explode(const Request& request);
 
 }  // namespace firstray::scenes

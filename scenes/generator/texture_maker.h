@@ -18,10 +18,11 @@ double noise(double x, double y, int period, std::uint64_t seed);
 double clouds(double x, double y, int period, int octaves, std::uint64_t seed);
 
 /// Textures that repeat seamlessly. Lengths: what one tile of texture is meant to cover.
-void write_cobbles(const std::filesystem::path& file, std::uint64_t seed);   ///< 4 m of rounded stones
-void write_meadow(const std::filesystem::path& file, std::uint64_t seed);    ///< 60 m of grass
-void write_plaster(const std::filesystem::path& file, std::uint64_t seed);   ///< 4 m, nearly white
-void write_slabs(const std::filesystem::path& file, std::uint64_t seed);     ///< 5 m of stone slabs, small dark ones between
+void write_cobbles(const std::filesystem::path& file, std::uint64_t seed);  ///< 4 m of rounded stones
+void write_meadow(const std::filesystem::path& file, std::uint64_t seed);   ///< 60 m of grass
+void write_plaster(const std::filesystem::path& file, std::uint64_t seed);  ///< 4 m, nearly white
+void write_slabs(const std::filesystem::path& file,
+                 std::uint64_t seed);  ///< 5 m of stone slabs, small dark ones between
 void write_masonry(const std::filesystem::path& file, std::uint64_t seed);   ///< 4 m of ashlar blocks
 void write_parquet(const std::filesystem::path& file, std::uint64_t seed);   ///< 2 m of herringbone wood
 void write_turf(const std::filesystem::path& file, std::uint64_t seed);      ///< 20 m of mown stripes
