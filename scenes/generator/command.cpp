@@ -25,7 +25,7 @@ Exit codes: 0 done, 2 usage, 4 file trouble.)";
 
 struct Choice {
     std::string output;
-    std::uint64_t seed = 1;
+    std::int64_t seed = 1;
     double amount = 0.0;
 };
 
@@ -87,7 +87,9 @@ void write(const SceneEntry& entry, const Choice& choice, std::ostream& out)
     const double amount = choice.amount;
     const bool fits = amount >= entry.low && amount <= entry.high && (!entry.whole || amount == std::floor(amount));
     if (!fits) throw Error(Fault::usage, fmt::format("{} is {}, expected {}", entry.option, amount, range_of(entry)));
-    const Request request{choice.output.empty() ? default_file(entry) : choice.output, choice.seed, amount};
+    if (choice.seed < 0) throw Error(Fault::usage, fmt::format("--seed is {}, expected 0 or more", choice.seed));
+    const Request request{choice.output.empty() ? default_file(entry) : choice.output,
+                          static_cast<std::uint64_t>(choice.seed), amount};
     const std::uint64_t triangles = entry.write(request);
     out << fmt::format("{}: {} triangles", request.file.string(), triangles) << std::endl;
     if (!out) throw FileError("cannot write to standard output");

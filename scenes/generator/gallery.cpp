@@ -54,7 +54,7 @@ void write_shell(AffWriter& out, const Request& request)
     put(out, wood, floor, request.name("parquet.ppm"));
     put(out, matt({0.50f, 0.60f, 0.60f}), walls, request.name("plaster.ppm"));
     put(out, matt({0.93f, 0.91f, 0.87f}), trim);
-    put(out, matt({0.90f, 0.89f, 0.87f}), ceiling);
+    put(out, {.ambient = {1.5f, 1.48f, 1.44f}, .diffuse = glm::vec3(0.6f)}, ceiling);  // lit from the floor
 }
 
 /// A frame of four mitred-looking bars around a picture of w x h, its middle at the origin, facing +z.

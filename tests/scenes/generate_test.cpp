@@ -47,22 +47,16 @@ Scene made(std::string_view name, double amount, std::uint64_t seed = 1)
     return read_aff(folder.path() / "scene.aff");
 }
 
-/// Camera rays of a picture of the given size, scattered by `random` around the eye where that is given.
+/// Rays of the camera for a picture of the given size, scattered where `random` is given.
 std::vector<TestRay> view_rays(const Pose& now, int width, int height, test::Random* random = nullptr)
 {
     const CameraRays camera = camera_rays(now, width, height);
-    std::vector<glm::ivec2> pixels;
-    for (int y = 0; y < height; ++y)
-        for (int x = 0; x < width; ++x) pixels.emplace_back(x, y);
     std::vector<TestRay> rays;
-    for (std::size_t first = 0; first < pixels.size(); first += RayTile<float>::capacity) {
-        const std::size_t count = std::min(pixels.size() - first, static_cast<std::size_t>(RayTile<float>::capacity));
-        const auto tile = std::make_unique<RayTile<float>>();
-        aim(camera, std::span(pixels).subspan(first, count), glm::dvec2(0.5), *tile);
-        for (int i = 0; i < tile->count; ++i) rays.push_back({tile->origin(i), tile->direction(i)});
-    }
-    if (random)
-        for (TestRay& ray : rays) ray.direction += random->in_cube(0.3 * glm::length(ray.direction));
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x) {
+            rays.push_back({camera.eye, direction(camera, {x + 0.5, y + 0.5})});
+            if (random) rays.back().direction += random->in_cube(0.3);
+        }
     return rays;
 }
 
@@ -85,9 +79,9 @@ TEST_CASE("the same seed gives the same bytes, another seed others")
 
 TEST_CASE("as many triangles are made as were asked for")
 {
-    for (const double amount : {1e5, 234567.0})
+    for (const double amount : {1e5, 150000.0})
         CHECK(static_cast<double>(made("crowd", amount).triangles.size()) == doctest::Approx(amount).epsilon(0.01));
-    for (const double amount : {1e4, 20000.0, 33333.0})
+    for (const double amount : {1e4, 20000.0})
         CHECK(static_cast<double>(made("art", amount, 5).triangles.size()) == doctest::Approx(amount).epsilon(0.01));
     CHECK(made("robots", 10).triangles.size() == doctest::Approx(70000).epsilon(0.01));
     CHECK(made("robot", 0).triangles.size() == doctest::Approx(6000).epsilon(0.02));
@@ -110,11 +104,15 @@ TEST_CASE("everything of the scenes that a transform should move does move")
     for (const SceneEntry& entry : scene_entries()) {
         CAPTURE(entry.name);
         const Scene scene = made(entry.name, small_amount(entry));
-        const double middle = 0.6 * scene.end;
         int still = 0;
         for (const Animation& animation : scene.animations) {
-            const Transform a = animation.at(0.0), b = animation.at(middle);
-            still += a.offset == b.offset && a.linear == b.linear;
+            const Transform start = animation.at(0.0);
+            bool moves = false;
+            for (int i = 1; i < 20; ++i) {
+                const Transform now = animation.at(scene.end * i / 20.0);
+                moves = moves || now.offset != start.offset || now.linear != start.linear;
+            }
+            still += !moves;
         }
         CHECK(still == 0);
     }
@@ -128,8 +126,7 @@ TEST_CASE("the stadium is as many times longer than the walker is high as was as
         double low = 1e9, high = -1e9, longest = 0.0;
         for (const Group& group : scene.groups)
             for (std::uint32_t i = 0; i < group.vertices; ++i) {
-                const glm::dvec3 p = now.groups[&group - scene.groups.data()].root_from_group.point(
-                    scene.positions[group.first_vertex + i]);
+                const glm::dvec3 p = now.root_from_node[group.node].point(scene.positions[group.first_vertex + i]);
                 if (group.node == 0 && std::abs(p.x) < 399.0) longest = std::max(longest, 2.0 * p.x);
                 if (group.node != 0) low = std::min(low, p.y), high = std::max(high, p.y);
             }
@@ -139,7 +136,7 @@ TEST_CASE("the stadium is as many times longer than the walker is high as was as
 
 TEST_CASE("a street hides nearly all of the crowd")
 {
-    const Scene scene = made("crowd", 3e5);
+    const Scene scene = made("crowd", 2e5);
     const auto strategy = find_strategy("grid")->make(scene, {});
     const Pose now = pose(scene, 4.0);
     strategy->update(now);
@@ -165,9 +162,9 @@ TEST_CASE("all strategies agree about the scenes that are made")
         int hits = 0;
         for (const double part : {0.1, 0.7}) {
             const Pose now = pose(scene, part * scene.end);
-            std::vector<TestRay> rays = view_rays(now, 16, 12);
-            const std::vector<TestRay> around = view_rays(now, 16, 12, &random),
-                                       awkward = test::awkward_rays(3, scene, 60);
+            std::vector<TestRay> rays = view_rays(now, 14, 10);
+            const std::vector<TestRay> around = view_rays(now, 14, 10, &random),
+                                       awkward = test::awkward_rays(3, scene, 40);
             rays.insert(rays.end(), around.begin(), around.end());
             rays.insert(rays.end(), awkward.begin(), awkward.end());
             const auto list = find_strategy("list")->make(scene, {});
