@@ -60,7 +60,8 @@ TEST_CASE("the writer's numbers read back as the same floats, whatever the local
     const Scene scene = read_aff(folder.path() / "main.aff");
     REQUIRE(scene.positions.size() == mesh.positions.size());
     int different = 0;
-    for (std::size_t i = 0; i < mesh.positions.size(); ++i) different += glm::vec3(scene.positions[i]) != glm::vec3(mesh.positions[i]);
+    for (std::size_t i = 0; i < mesh.positions.size(); ++i)
+        different += glm::vec3(scene.positions[i]) != glm::vec3(mesh.positions[i]);
     CHECK(different == 0);
     CHECK(out.triangles() == mesh.triangles.size());
 }
