@@ -135,32 +135,43 @@ void put(AffWriter& out, const Material& material, Mesh& mesh, const std::string
     out.mesh(mesh, texture);
 }
 
-}  // namespace
-
-void write_arcade(AffWriter& out, const Request& request, int bays)
+StreetParts build_street(int bays, Random& random)
 {
-    Random random(request.seed, 1, 0);
-    const double length = bays * bay_length;
     StreetParts parts;
+    const double floor = half_width + 0.3, end = -bays * bay_length;
     for (int bay = 0; bay < bays; ++bay) {
-        for (const double side : {-1.0, 1.0}) add_shop(parts, side, bay * bay_length, random);
-        add_roof(parts, bay * bay_length);
-        if (bay % 2) add_lamp(parts, bay * bay_length);
-        add_quad(parts.floor, {-half_width - 0.3, 0, -bay * bay_length}, {half_width + 0.3, 0, -bay * bay_length},
-                 {half_width + 0.3, 0, -(bay + 1) * bay_length}, {-half_width - 0.3, 0, -(bay + 1) * bay_length},
-                 {2.52, 1.0});
+        const double z = bay * bay_length;
+        for (const double side : {-1.0, 1.0}) add_shop(parts, side, z, random);
+        add_roof(parts, z);
+        if (bay % 2) add_lamp(parts, z);
+        add_quad(parts.floor, {-floor, 0, -z}, {floor, 0, -z}, {floor, 0, -z - bay_length},
+                 {-floor, 0, -z - bay_length}, {2.52, 1.0});
     }
     for (int bay = 0; bay <= bays; ++bay)
         for (const double side : {-1.0, 1.0})
             append(parts.columns, column(), shift({side * (half_width - 0.42), 0.0, -bay * bay_length}));
-    add_end(parts, length);
-    add_quad(parts.floor, {-30, -0.01, 30}, {30, -0.01, 30}, {30, -0.01, -length - 15}, {-30, -0.01, -length - 15},
-             {12.0, length / 5 + 9});
+    add_end(parts, -end);
+    add_quad(parts.floor, {-30, -0.01, 30}, {30, -0.01, 30}, {30, -0.01, end - 15}, {-30, -0.01, end - 15},
+             {12.0, 9 - end / 5});
+    return parts;
+}
+
+void write_textures(const Request& request)
+{
     write_slabs(request.beside("slabs.ppm"), request.seed);
     write_masonry(request.beside("masonry.ppm"), request.seed);
     for (int i = 0; i < posters; ++i)
         write_painting(request.beside("poster_" + std::to_string(i) + ".ppm"),
                        Random::mixed(request.seed) + static_cast<std::uint64_t>(i));
+}
+
+}  // namespace
+
+void write_arcade(AffWriter& out, const Request& request, int bays)
+{
+    write_textures(request);
+    Random random(request.seed, 1, 0);
+    StreetParts parts = build_street(bays, random);
     Material floor = matt({0.86f, 0.82f, 0.78f});
     floor.specular = glm::vec3(0.10f);
     floor.shine = 20.0f;

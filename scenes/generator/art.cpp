@@ -1,21 +1,19 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <optional>
-#include <vector>
 
 #include "scenes/generator/gallery.h"
 #include "scenes/generator/generate.h"
 #include "scenes/generator/looks.h"
 #include "scenes/generator/motion.h"
 #include "scenes/generator/random.h"
+#include "scenes/generator/split_writer.h"
 
 namespace firstray::scenes {
 namespace {
 
 constexpr int shapes = 7;
 constexpr double seconds_per_shape = 1.0, radius = 0.62;
-constexpr std::uint64_t file_bytes = 200u << 20;  // a file is closed beyond this: readers hold one at a time
 const glm::dvec3 centre(0.0, plinth_height + 0.78, 0.0);
 
 /// What the thing is at a second: a sphere whose radius waves, stretched and twisted.
@@ -57,12 +55,11 @@ double cut(double value, double step)
     return std::round(value / step) * step;
 }
 
-/// Writes the thing triangle by triangle, into as many files as it takes.
+/// Writes the thing triangle by triangle.
 class ThingWriter {
 public:
     ThingWriter(const Request& request, AffWriter& main, int columns, int rows)
-        : request_(request),
-          main_(main),
+        : files_(request, "thing", main),
           columns_(columns),
           rows_(rows),
           phase_(Random(request.seed).between(0.0, 2.0 * M_PI))
@@ -71,31 +68,15 @@ public:
 
     void write()
     {
-        next_file();
         for (int j = 0; j < rows_; ++j)
             for (int i = 0; i < columns_; ++i) {
                 if (j > 0) triangle({i, i + 1, i + 1}, {j, j, j + 1});
                 if (j + 1 < rows_) triangle({i, i + 1, i}, {j, j + 1, j + 1});
-                if (out_->bytes() > file_bytes) next_file();
             }
-        finish();
+        files_.finish();
     }
 
 private:
-    void finish()
-    {
-        main_.include(name_, out_->triangles());
-        out_->finish();
-    }
-
-    void next_file()
-    {
-        if (out_) finish();
-        const std::string rest = "thing_" + std::to_string(files_++) + ".aff";
-        name_ = request_.name(rest);
-        out_.emplace(request_.beside(rest));
-    }
-
     void triangle(const std::array<int, 3>& column, const std::array<int, 3>& row)
     {
         std::array<DeformingKey, shapes> keys;
@@ -111,16 +92,12 @@ private:
                 }
             }
         }
-        out_->deforming_triangle(keys);
+        files_.out().deforming_triangle(keys);
     }
 
-    const Request& request_;
-    AffWriter& main_;
+    SplitWriter files_;
     int columns_, rows_;
     double phase_;
-    std::string name_;
-    std::optional<AffWriter> out_;
-    int files_ = 0;
 };
 
 void write_settings(AffWriter& out)

@@ -1,11 +1,13 @@
 #include <algorithm>
 #include <cmath>
-#include <optional>
+#include <tuple>
 #include <vector>
 
 #include "scenes/generator/generate.h"
+#include "scenes/generator/ground.h"
 #include "scenes/generator/looks.h"
 #include "scenes/generator/motion.h"
+#include "scenes/generator/split_writer.h"
 #include "scenes/generator/texture_maker.h"
 #include "scenes/generator/town.h"
 
@@ -15,56 +17,37 @@ namespace {
 // Lengths in metres, y up. Streets run along z and x; the camera stands in the one along z at x = 0.
 constexpr double block_x = 36.0, block_z = 62.0, half_street = 4.5;
 constexpr int lots_per_row = 5, person_models = 6, tree_models = 4;
-constexpr double built_share = 0.72;          // of the triangles; the rest is ground
-constexpr double triangles_per_block = 16e3;  // about: only the hills' distance depends on it
-constexpr double hills_width = 450.0;
-constexpr std::uint64_t file_bytes = 200u
-                                     << 20;  // a file of the town is closed beyond this: readers hold one at a time
+constexpr double built_share = 0.72;        // of the triangles; the rest is ground
+constexpr double triangles_per_row = 18e3;  // about: only the hills' distance depends on it
 constexpr double lot_width = (block_z - 2.0 * half_street) / lots_per_row;
 
-enum Kind : std::uint64_t { block_kind = 1, person_kind, tree_kind, walker_kind, ground_kind };
+enum Kind : std::uint64_t { row_kind = 1, person_kind, tree_kind, walker_kind };
 
-struct Block {
-    int x = 0, z = 0;
-    double distance = 0.0;  // of its middle from the camera's street
+/// Houses along one side of a block, their fronts towards the street at its low or its high x.
+struct Row {
+    int x = 0, z = 0;  // of the block
+    bool high_side = false;
+    double distance = 0.0;  // from a place before the camera
+
+    double front() const { return high_side ? (x + 1) * block_x - half_street : x * block_x + half_street; }
 };
 
-/// The ground: gentle waves in the town, hills around it.
-class Ground {
-public:
-    Ground(double town_radius, std::uint64_t seed) : town_radius_(town_radius), seed_(Random::mixed(seed)) {}
-
-    double extent() const { return town_radius_ + hills_width; }
-    bool in_town(double x, double z) const { return std::hypot(x, z) < town_radius_; }
-    double height(double x, double z) const
-    {
-        const double waves = 0.8 * std::sin(x / 31.0 + 1.0) * std::cos(z / 43.0);
-        const double rise = ease(town_radius_, town_radius_ + 0.8 * hills_width, std::hypot(x, z));
-        if (rise <= 0.0) return waves;
-        const double shape = clouds(x / 170.0 + 100.0, z / 170.0 + 100.0, 1 << 20, 4, seed_);
-        return waves + rise * (25.0 + 150.0 * shape * shape);
-    }
-    glm::dvec3 on(double x, double z) const { return {x, height(x, z), z}; }
-
-private:
-    double town_radius_;
-    std::uint64_t seed_;
-};
-
-/// Blocks from the middle outwards, more than the triangles will suffice for; the square before the church stays free.
-std::vector<Block> blocks_around(double wanted)
+/// Rows from the camera outwards, more than the triangles will suffice for; the square before the church stays free.
+std::vector<Row> rows_around(double wanted)
 {
     const int reach = static_cast<int>(std::sqrt(wanted * block_z / block_x)) + 3;
-    std::vector<Block> blocks;
+    std::vector<Row> rows;
     for (int z = -reach; z < reach; ++z)
-        for (int x = -reach; x < reach; ++x) {
-            const bool square = z == -2 && (x == -1 || x == 0);
-            if (!square) blocks.push_back({x, z, std::hypot((x + 0.5) * block_x, (z + 0.5) * block_z)});
-        }
-    std::sort(blocks.begin(), blocks.end(), [](const Block& a, const Block& b) {
+        for (int x = -reach; x < reach; ++x)
+            for (const bool high_side : {false, true}) {
+                Row row{x, z, high_side};
+                row.distance = std::hypot(row.front(), (z + 0.5) * block_z - 12.0);
+                if (z != -2 || x < -1 || x > 0) rows.push_back(row);
+            }
+    std::sort(rows.begin(), rows.end(), [](const Row& a, const Row& b) {
         return std::tie(a.distance, a.z, a.x) < std::tie(b.distance, b.z, b.x);
     });
-    return blocks;
+    return rows;
 }
 
 /// Models that the town includes again and again.
@@ -91,26 +74,30 @@ Models write_models(const Request& request)
     return models;
 }
 
-/// Writes the town into as many files as it takes, each of which the main file includes.
+/// Writes what the town consists of.
 class TownWriter {
 public:
     TownWriter(const Request& request, const Ground& ground, const Models& models, AffWriter& main)
-        : request_(request), ground_(ground), models_(models), main_(main), plaster_(request.name("plaster.ppm"))
+        : request_(request),
+          ground_(ground),
+          models_(models),
+          files_(request, "town", main),
+          plaster_(request.name("plaster.ppm"))
     {
-        next_file();
     }
 
-    std::uint64_t triangles() const { return main_.triangles() + out_->triangles(); }
+    std::uint64_t triangles() const { return files_.triangles(); }
+    void finish() { files_.finish(); }
 
     /// Stops when there are `enough` triangles.
-    void block(const Block& block, std::uint64_t enough)
+    void row(const Row& row, std::uint64_t enough)
     {
-        if (out_->bytes() > file_bytes) next_file();
-        Random random(request_.seed, block_kind, static_cast<std::uint64_t>(block.x * 65536 + block.z));
-        for (int lot = 0; lot < 2 * lots_per_row && triangles() < enough; ++lot) {
-            house(block, lot, random);
-            person_in_street(block, random);
-            if (lot % 3 == 0 && triangles() < enough) tree(block, lot, random);
+        const int place = (row.x * 65536 + row.z) * 2 + row.high_side;
+        Random random(request_.seed, row_kind, static_cast<std::uint64_t>(place));
+        for (int lot = 0; lot < lots_per_row && triangles() < enough; ++lot) {
+            house(row, lot, random);
+            for (int i = 0; i < 2; ++i) person_in_street(row, random);
+            if (lot % 2 == 1 && triangles() < enough) tree(row, lot, random);
         }
     }
 
@@ -128,113 +115,63 @@ public:
         }
     }
 
-    void finish()
-    {
-        main_.include(name_, out_->triangles());
-        out_->finish();
-        out_.reset();
-    }
-
 private:
     void person(const glm::dvec3& place, double degrees, Random& random)
     {
         const auto model = static_cast<std::size_t>(random.below(person_models));
-        out_->material(matt(bright_colour(random)));
-        const double size = std::round(random.between(0.92, 1.06) * 100.0) / 100.0;
-        include(models_.people[model], models_.person_triangles[model], place, degrees, size);
+        AffWriter& out = files_.out();
+        out.material(matt(bright_colour(random)));
+        include(out, models_.people[model], models_.person_triangles[model], place, degrees,
+                random.between(0.92, 1.06));
     }
 
-    void next_file()
+    void include(AffWriter& out, const std::string& name, std::uint64_t triangles, const glm::dvec3& place,
+                 double degrees, double size)
     {
-        if (out_) finish();
-        const std::string rest = "town_" + std::to_string(files_++) + ".aff";
-        name_ = request_.name(rest);
-        out_.emplace(request_.beside(rest));
+        const auto cut = [](double x) { return std::round(x * 100.0) / 100.0; };
+        out.open({.scale = glm::dvec3(cut(size)),
+                  .degrees = std::round(degrees),
+                  .offset = {cut(place.x), cut(place.y), cut(place.z)}});
+        out.include(name, triangles);
+        out.close();
+        out.forget_material();
     }
 
-    void include(const std::string& name, std::uint64_t triangles, const glm::dvec3& place, double degrees, double size)
+    void house(const Row& row, int lot, Random& random)
     {
-        const auto cut = [](double x) { return std::round(x * 1000.0) / 1000.0; };
-        out_->open({.scale = glm::dvec3(size),
-                    .degrees = std::round(degrees),
-                    .offset = {cut(place.x), cut(place.y), cut(place.z)}});
-        out_->include(name, triangles);
-        out_->close();
-        out_->forget_material();
-    }
-
-    /// Lots 0 ... 4 face the street at the block's low x, 5 ... 9 that at its high x.
-    void house(const Block& block, int lot, Random& random)
-    {
-        const bool high_side = lot >= lots_per_row;
-        const double x = high_side ? (block.x + 1) * block_x - half_street : block.x * block_x + half_street;
-        const double z = block.z * block_z + half_street + (lot % lots_per_row + 0.5) * lot_width;
+        const double z = row.z * block_z + half_street + (lot + 0.5) * lot_width;
         const House house{.width = lot_width, .depth = random.between(8.4, 9.6), .storeys = 2 + random.below(3)};
-        const Transform place = shift(ground_.on(x, z)) * turn({0, 1, 0}, high_side ? 90 : -90);
-        write_house(*out_, house, place, plaster_, random);
+        const Transform place = shift(ground_.on(row.front(), z)) * turn({0, 1, 0}, row.high_side ? 90 : -90);
+        write_house(files_.out(), house, place, plaster_, random);
     }
 
-    void person_in_street(const Block& block, Random& random)
+    void person_in_street(const Row& row, Random& random)
     {
         const bool along_z = random.chance(0.7);
-        const double side = random.between(-3.4, 3.4), way = random.unit();
-        const double x = block.x * block_x + (along_z ? side : way * block_x);
-        const double z = block.z * block_z + (along_z ? way * block_z : side);
+        const double side = random.between(0.3, 3.6), way = random.unit(), degrees = random.between(0.0, 360.0);
+        const double inwards = row.high_side ? 1.0 : -1.0, middle = row.front() + inwards * half_street;
+        const double x = along_z ? middle - inwards * side : middle - inwards * way * block_x / 2;
+        const double z = row.z * block_z + (along_z ? way * block_z : inwards * side);
         const bool before_camera = std::abs(x) < 2.0 && z > 20.0 && z < 60.0;
-        person(ground_.on(x + (before_camera ? std::copysign(2.0, x) : 0.0), z), random.between(0.0, 360.0), random);
+        person(ground_.on(x + (before_camera ? std::copysign(2.0, x) : 0.0), z), degrees, random);
     }
 
-    void tree(const Block& block, int lot, Random& random)
+    /// In the garden behind the houses.
+    void tree(const Row& row, int lot, Random& random)
     {
-        const double x = (block.x + 0.5) * block_x + random.between(-2.0, 2.0);
-        const double z = block.z * block_z + half_street + (lot + 0.5) * lot_width / 2 + random.between(-1.5, 1.5);
+        const double x = (row.x + 0.5) * block_x + (row.high_side ? 2.0 : -2.0) + random.between(-1.5, 1.5);
+        const double z = row.z * block_z + half_street + (lot + random.unit()) * lot_width;
+        const double degrees = random.between(0.0, 360.0), size = random.between(0.8, 1.2);
         const auto model = static_cast<std::size_t>(random.below(tree_models));
-        include(models_.trees[model], models_.tree_triangles[model], ground_.on(x, z), random.between(0.0, 360.0),
-                std::round(random.between(0.8, 1.2) * 100.0) / 100.0);
+        include(files_.out(), models_.trees[model], models_.tree_triangles[model], ground_.on(x, z), degrees, size);
     }
 
     const Request& request_;
     const Ground& ground_;
     const Models& models_;
-    AffWriter& main_;
-    std::string plaster_, name_;
-    std::optional<AffWriter> out_;
-    int files_ = 0;
+    SplitWriter files_;
+    std::string plaster_;
 };
-
-/// The triangles of a patch that lie in the town, or those that do not.
-void write_patch(AffWriter& out, const Mesh& patch, const Ground& ground, bool town, const std::string& texture)
-{
-    Mesh part = part_of(patch, [&](const glm::dvec3& p) { return ground.in_town(p.x, p.z) == town; });
-    if (part.triangles.empty()) return;
-    for (const glm::dvec3& p : part.positions) part.uvs.push_back(glm::dvec2(p.x, p.z) / (town ? 4.0 : 60.0));
-    for (Mesh::Triangle& t : part.triangles) t.uv = t.vertex;
-    snap(part, 1e-2);
-    if (town) part.normals.clear();  // nearly flat
-    out.material(matt(town ? glm::vec3(0.80f, 0.76f, 0.72f) : glm::vec3(0.78f, 0.82f, 0.74f)));
-    out.mesh(part, texture);
-}
-
-/// Ground of about `triangles` triangles, cut into patches.
-std::uint64_t write_ground(const Request& request, const Ground& ground, std::uint64_t triangles, AffWriter& main)
-{
-    constexpr int patch = 30;  // less than 1000 vertices: indices of three digits
-    const int cells = std::max(8, static_cast<int>(std::lround(std::sqrt(static_cast<double>(triangles) / 2.0))));
-    const double cell = 2.0 * ground.extent() / cells;
-    AffWriter out(request.beside("ground.aff"));
-    for (int j = 0; j < cells; j += patch)
-        for (int i = 0; i < cells; i += patch) {
-            const int nu = std::min(patch, cells - i), nv = std::min(patch, cells - j);
-            const Mesh mesh = surface(nu, nv, [&](double u, double v) {
-                return ground.on((i + u * nu) * cell - ground.extent(), ground.extent() - (j + v * nv) * cell);
-            });
-            write_patch(out, mesh, ground, true, request.name("cobbles.ppm"));
-            write_patch(out, mesh, ground, false, request.name("meadow.ppm"));
-        }
-    out.finish();
-    main.include(request.name("ground.aff"), out.triangles());
-    return out.triangles();
-}
 
 void write_settings(AffWriter& out, const Ground& ground)
 {
@@ -303,10 +240,8 @@ std::uint64_t write_crowd(const Request& request)
 {
     const auto wanted = static_cast<std::uint64_t>(request.amount);
     const auto built = static_cast<std::uint64_t>(request.amount * built_share);
-    const double blocks = request.amount * built_share / triangles_per_block;
-    const Ground ground(std::sqrt(blocks * block_x * block_z / M_PI) + 60.0, request.seed);
-    write_cobbles(request.beside("cobbles.ppm"), request.seed);
-    write_meadow(request.beside("meadow.ppm"), request.seed);
+    const double rows = request.amount * built_share / triangles_per_row;
+    const Ground ground(std::sqrt(0.5 * rows * block_x * block_z / M_PI) + 60.0, request.seed);
     write_plaster(request.beside("plaster.ppm"), request.seed);
     const Models models = write_models(request);
 
@@ -320,8 +255,8 @@ std::uint64_t write_crowd(const Request& request)
     write_fountain(out, shift(ground.on(0.0, -80.0)));
     TownWriter town(request, ground, models, out);
     town.people_in_sight();
-    for (const Block& block : blocks_around(blocks))
-        if (town.triangles() < built) town.block(block, built);
+    for (const Row& row : rows_around(rows))
+        if (town.triangles() < built) town.row(row, built);
     town.finish();
     write_ground(request, ground, wanted - std::min(wanted, out.triangles()), out);
     out.finish();

@@ -66,6 +66,33 @@ glm::dvec2 step_normal(const glm::dvec2& from, const glm::dvec2& to)
     return {along.y, -along.x};
 }
 
+/// Appends a ring of points or normals around y; returns where it begins.
+std::uint32_t add_ring(std::vector<glm::dvec3>& list, const glm::dvec2& p, int around)
+{
+    for (int i = 0; i < around; ++i) {
+        const double angle = 2.0 * M_PI * i / around;
+        list.emplace_back(p.x * std::cos(angle), p.y, p.x * std::sin(angle));
+    }
+    return size_of(list) - static_cast<std::uint32_t>(around);
+}
+
+/// Triangles between two rings.
+/// vertex, normal  where the lower and the upper ring begin
+/// open            whether the lower and the upper ring are more than a point
+void add_belt(Mesh& mesh, const glm::uvec2& vertex, const glm::uvec2& normal, int around, const glm::bvec2& open)
+{
+    const auto n = static_cast<std::uint32_t>(around);
+    for (std::uint32_t i = 0; i < n; ++i) {
+        const std::uint32_t j = (i + 1) % n;
+        if (open.x)
+            mesh.triangles.push_back(
+                {{vertex.x + i, vertex.y + j, vertex.x + j}, {normal.x + i, normal.y + j, normal.x + j}, {}});
+        if (open.y)
+            mesh.triangles.push_back(
+                {{vertex.x + i, vertex.y + i, vertex.y + j}, {normal.x + i, normal.y + i, normal.y + j}, {}});
+    }
+}
+
 /// A unit vector at right angles to a unit vector.
 glm::dvec3 across(const glm::dvec3& along)
 {
@@ -152,36 +179,20 @@ Mesh lathe(std::span<const glm::dvec2> profile, int around)
 {
     constexpr double sharp = 0.766;  // cosine of 40 degrees
     Mesh mesh;
-    const auto n = static_cast<std::uint32_t>(around), steps = size_of(profile) - 1;
-    const auto ring = [&](std::vector<glm::dvec3>& list, const glm::dvec2& p) {
-        for (int i = 0; i < around; ++i) {
-            const double angle = 2.0 * M_PI * i / around;
-            list.emplace_back(p.x * std::cos(angle), p.y, p.x * std::sin(angle));
-        }
-        return size_of(list) - n;
-    };
-    std::uint32_t vertex = ring(mesh.positions, profile[0]);
-    std::uint32_t normal = ring(mesh.normals, step_normal(profile[0], profile[1]));  // at the step's lower end
+    const std::uint32_t steps = size_of(profile) - 1;
+    std::uint32_t vertex = add_ring(mesh.positions, profile[0], around);
+    std::uint32_t normal =
+        add_ring(mesh.normals, step_normal(profile[0], profile[1]), around);  // at a step's lower end
     for (std::uint32_t k = 0; k < steps; ++k) {
         const glm::dvec2 own = step_normal(profile[k], profile[k + 1]);
         const glm::dvec2 next = k + 1 < steps ? step_normal(profile[k + 1], profile[k + 2]) : own;
         const bool smooth = glm::dot(own, next) > sharp;
-        const std::uint32_t high_vertex = ring(mesh.positions, profile[k + 1]);
-        const std::uint32_t high_normal = ring(mesh.normals, smooth ? glm::normalize(own + next) : own);
-        for (std::uint32_t i = 0; i < n; ++i) {
-            const std::uint32_t j = (i + 1) % n;
-            const glm::uvec3 lower(i, n + j, j), upper(i, n + i, n + j);  // rings follow each other but for sharp bends
-            const auto add = [&](const glm::uvec3& t) {
-                const auto in = [&](std::uint32_t low, std::uint32_t high) {
-                    return glm::uvec3(low + t.x, (t.y < n ? low : high - n) + t.y, (t.z < n ? low : high - n) + t.z);
-                };
-                mesh.triangles.push_back({in(vertex, high_vertex), in(normal, high_normal), {}});
-            };
-            if (profile[k].x > 0.0) add(lower);
-            if (profile[k + 1].x > 0.0) add(upper);
-        }
+        const std::uint32_t high_vertex = add_ring(mesh.positions, profile[k + 1], around);
+        const std::uint32_t high_normal = add_ring(mesh.normals, smooth ? glm::normalize(own + next) : own, around);
+        const glm::bvec2 open(profile[k].x > 0.0, profile[k + 1].x > 0.0);
+        add_belt(mesh, {vertex, high_vertex}, {normal, high_normal}, around, open);
         vertex = high_vertex;
-        normal = smooth ? high_normal : ring(mesh.normals, next);
+        normal = smooth ? high_normal : add_ring(mesh.normals, next, around);
     }
     return mesh;
 }

@@ -41,30 +41,37 @@ void put(AffWriter& out, const Material& material, Mesh mesh, const std::string&
     out.mesh(mesh, texture);
 }
 
-/// Two tiers of seats in blocks of two colours, stairs between them.
-void write_stands(AffWriter& out)
+/// A tier of the stands: where its cross-section begins and ends.
+struct Tier {
+    glm::dvec2 low, high;
+    int rows;
+};
+
+/// Rows of seats in blocks of two colours, and the steps that show between them.
+void add_tier(const Tier& tier, Mesh (&colours)[2], Mesh& steps)
 {
     constexpr int blocks = 36;
-    const struct {
-        glm::dvec2 low, high;
-        int rows;
-    } tiers[] = {{{0, 1.2}, {17, 9.5}, 8}, {{18, 13.0}, {36, 27.0}, 9}};
-    Mesh colours[2], stairs, concrete;
-    for (const auto& tier : tiers)
-        for (int row = 0; row < tier.rows; ++row) {
-            const glm::dvec2 step = (tier.high - tier.low) / static_cast<double>(tier.rows);
-            const glm::dvec2 a = tier.low + step * static_cast<double>(row), b = a + glm::dvec2(0.0, step.y),
-                             c = b + glm::dvec2(step.x, 0.0);
-            for (int i = 0; i < blocks; ++i) {
-                const double from = (i + 0.06) / blocks, to = (i + 0.94) / blocks;
-                Mesh& seats = colours[(i / 2 + (row > tier.rows / 2)) % 2];
-                const glm::dvec2 off(-0.25, 0.12);  // clear of the steps, whose chords are longer
-                append(seats, band(a + off, b + off, from, to, 2));
-                append(seats, band(b + off, c + off, from, to, 2));
-            }
-            append(stairs, band(a, b));
-            append(stairs, band(b + glm::dvec2(0, -0.03), c + glm::dvec2(0, -0.03)));
+    const glm::dvec2 off(-0.25, 0.12);  // seats stand clear of the steps, whose chords are longer
+    const glm::dvec2 step = (tier.high - tier.low) / static_cast<double>(tier.rows);
+    for (int row = 0; row < tier.rows; ++row) {
+        const glm::dvec2 a = tier.low + step * static_cast<double>(row), b = a + glm::dvec2(0.0, step.y),
+                         c = b + glm::dvec2(step.x, 0.0);
+        for (int i = 0; i < blocks; ++i) {
+            const double from = (i + 0.06) / blocks, to = (i + 0.94) / blocks;
+            Mesh& seats = colours[(i / 2 + (row > tier.rows / 2)) % 2];
+            append(seats, band(a + off, b + off, from, to, 2));
+            append(seats, band(b + off, c + off, from, to, 2));
         }
+        append(steps, band(a, b));
+        append(steps, band(b + glm::dvec2(0, -0.03), c + glm::dvec2(0, -0.03)));
+    }
+}
+
+void write_stands(AffWriter& out)
+{
+    Mesh colours[2], steps, concrete;
+    add_tier({{0, 1.2}, {17, 9.5}, 8}, colours, steps);
+    add_tier({{18, 13.0}, {36, 27.0}, 9}, colours, steps);
     append(concrete, band({17, 9.5}, {18, 9.5}));
     append(concrete, band({18, 9.5}, {18, 13.0}));
     append(concrete, band({0, 0.0}, {0, 1.2}));
@@ -72,7 +79,7 @@ void write_stands(AffWriter& out)
     append(concrete, band({36, 27.0}, {36, 30.0}));
     put(out, matt({0.70f, 0.16f, 0.14f}), colours[0]);
     put(out, matt({0.86f, 0.84f, 0.80f}), colours[1]);
-    put(out, matt({0.52f, 0.52f, 0.52f}), stairs);
+    put(out, matt({0.52f, 0.52f, 0.52f}), steps);
     put(out, matt({0.66f, 0.65f, 0.63f}), concrete);
 }
 
@@ -91,7 +98,7 @@ void write_roof(AffWriter& out)
     put(out, matt({0.80f, 0.82f, 0.86f}), masts);
 }
 
-/// White lines, 12 cm wide, and the two goals.
+/// White lines, 12 cm wide.
 void write_lines(AffWriter& out)
 {
     Mesh lines;
@@ -118,6 +125,11 @@ void write_lines(AffWriter& out)
         add_quad(lines, at(i, 9.15 - w), at(i, 9.15 + w), at(i + 1, 9.15 + w), at(i + 1, 9.15 - w));
     }
     put(out, matt({0.93f, 0.95f, 0.92f}), lines);
+}
+
+void write_goals(AffWriter& out)
+{
+    const double x = pitch_x / 2;
     Mesh goals;
     for (const double s : {-1.0, 1.0}) {
         const glm::dvec3 frame[] = {{s * x, 0, -3.66}, {s * x, 2.44, -3.66}, {s * x, 2.44, 3.66}, {s * x, 0, 3.66}};
@@ -140,6 +152,7 @@ void write_place(AffWriter& out, const Request& request)
     write_stands(out);
     write_roof(out);
     write_lines(out);
+    write_goals(out);
     constexpr int boards = 24, pictures = 3;
     for (int i = 0; i < pictures; ++i)
         write_painting(request.beside("board_" + std::to_string(i) + ".ppm"),
@@ -192,21 +205,14 @@ void write_ball(AffWriter& out, const Walk& walk)
     out.close();
 }
 
-}  // namespace
-
-/// A grid over all of this has cells as large as the walker, or larger.
-std::uint64_t write_stadium(const Request& request)
+/// unit  a walker's metre
+void write_settings(AffWriter& out, const Walk& walk, double unit)
 {
-    const double unit = stadium_length / request.amount / walker_height;  // a walker's metre, in the stadium's
-    const Walk walk = circle_walk({0.0, seconds, 110}, 5.0, speed, -40.0);
     const auto eye = [&](double t) {
         const double angle = glm::radians(walk.heading(t) - 30.0 - 3.0 * t);
         return walk.place(t) + glm::dvec3(3.1 * std::sin(angle), 0.62 + 0.05 * t, 3.1 * std::cos(angle));
     };
     const auto target = [&](double t) { return walk.place(t) + glm::dvec3(0.0, 1.05, 0.0); };
-    AffWriter out(request.file);
-    out.comment("A tin robot, " + std::to_string(static_cast<int>(std::lround(request.amount))) +
-                " times smaller than the stadium it plays in. Made by firstray's generator; CC0.");
     out.view({.from = unit * eye(0.0),
               .at = unit * target(0.0),
               .angle = 52.0,
@@ -220,6 +226,19 @@ std::uint64_t write_stadium(const Request& request)
     out.keys(motion(
         "camera", walk.beat, [&](double t) { return unit * eye(t); },
         [&](double t) { return looking(eye(t), target(t)); }));
+}
+
+}  // namespace
+
+/// A grid over all of this has cells as large as the walker, or larger.
+std::uint64_t write_stadium(const Request& request)
+{
+    const double unit = stadium_length / request.amount / walker_height;  // a walker's metre, in the stadium's
+    const Walk walk = circle_walk({0.0, seconds, 110}, 5.0, speed, -40.0);
+    AffWriter out(request.file);
+    out.comment("A tin robot, " + std::to_string(static_cast<int>(std::lround(request.amount))) +
+                " times smaller than the stadium it plays in. Made by firstray's generator; CC0.");
+    write_settings(out, walk, unit);
     write_place(out, request);
     out.open({.scale = glm::dvec3(unit)});
     write_walker(out, "robot", walk, {{0.88f, 0.60f, 0.14f}, {0.24f, 0.30f, 0.36f}});

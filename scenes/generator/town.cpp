@@ -137,6 +137,24 @@ void add_chimney(HouseParts& parts, const House& house, double x)
         add_box(parts.roof, {x + dx - 0.12, top + 0.18, z - 0.12}, {x + dx + 0.12, top + 0.6, z + 0.12});
 }
 
+/// Spire, nave's roof, clock face and the ball on top.
+void write_church_roof(AffWriter& out, const Transform& place)
+{
+    Mesh roof;
+    const glm::dvec3 tip(0.0, 38.0, -4.0),
+        corners[] = {{-4.3, 24.0, 0.3}, {4.3, 24.0, 0.3}, {4.3, 24.0, -8.3}, {-4.3, 24.0, -8.3}};
+    for (std::size_t i = 0; i < 4; ++i)
+        add_quad(roof, corners[i], corners[(i + 1) % 4], glm::mix(corners[(i + 1) % 4], tip, 0.999),
+                 glm::mix(corners[i], tip, 0.999));
+    for (const double s : {-1.0, 1.0})
+        add_quad(roof, {s * 9.0, 10.6, s > 0 ? -6.0 : -34.4}, {s * 9.0, 10.6, s > 0 ? -34.4 : -6.0},
+                 {0, 18, s > 0 ? -34.4 : -6.0}, {0, 18, s > 0 ? -6.0 : -34.4});
+    put(out, matt({0.30f, 0.42f, 0.38f}), roof, place);
+    const glm::dvec2 disc[] = {{1.5, 0.0}, {1.5, 0.12}, {0.0, 0.12}};
+    put(out, matt({0.93f, 0.91f, 0.84f}), lathe(disc, 32), place * shift({0, 12.2, 0}) * turn({1, 0, 0}, 90));
+    put(out, metal({0.95f, 0.72f, 0.25f}, 0.3f), ball(0.45, 10, 16), place * shift({0.0, 38.2, -4.0}));
+}
+
 }  // namespace
 
 glm::vec3 bright_colour(Random& random)
@@ -227,19 +245,7 @@ void write_church(AffWriter& out, const Transform& place, std::string_view plast
     put(out, matt({0.96f, 0.88f, 0.72f}), walls, place, plaster);
     put(out, matt({0.86f, 0.78f, 0.64f}), trim, place);
     put(out, matt({0.16f, 0.14f, 0.14f}), dark, place);
-    Mesh roof;
-    const glm::dvec3 tip(0.0, 38.0, -4.0),
-        corners[] = {{-4.3, 24.0, 0.3}, {4.3, 24.0, 0.3}, {4.3, 24.0, -8.3}, {-4.3, 24.0, -8.3}};
-    for (std::size_t i = 0; i < 4; ++i)
-        add_quad(roof, corners[i], corners[(i + 1) % 4], glm::mix(corners[(i + 1) % 4], tip, 0.999),
-                 glm::mix(corners[i], tip, 0.999));
-    for (const double s : {-1.0, 1.0})
-        add_quad(roof, {s * 9.0, 10.6, s > 0 ? -6.0 : -34.4}, {s * 9.0, 10.6, s > 0 ? -34.4 : -6.0},
-                 {0, 18, s > 0 ? -34.4 : -6.0}, {0, 18, s > 0 ? -6.0 : -34.4});
-    put(out, matt({0.30f, 0.42f, 0.38f}), roof, place);
-    const glm::dvec2 disc[] = {{1.5, 0.0}, {1.5, 0.12}, {0.0, 0.12}};
-    put(out, matt({0.93f, 0.91f, 0.84f}), lathe(disc, 32), place * shift({0, 12.2, 0}) * turn({1, 0, 0}, 90));
-    put(out, metal({0.95f, 0.72f, 0.25f}, 0.3f), ball(0.45, 10, 16), place * shift({0.0, 38.2, -4.0}));
+    write_church_roof(out, place);
 }
 
 void write_fountain(AffWriter& out, const Transform& place)
