@@ -90,6 +90,11 @@ void write(const SceneEntry& entry, const Choice& choice, std::ostream& out)
     if (choice.seed < 0) throw Error(Fault::usage, fmt::format("--seed is {}, expected 0 or more", choice.seed));
     const Request request{choice.output.empty() ? default_file(entry) : choice.output,
                           static_cast<std::uint64_t>(choice.seed), amount};
+    const std::string stem = request.file.stem().string();  // begins names that AFF files mention
+    if (stem.empty() || stem.find_first_of(" \t\r\n\f{}#%") != std::string::npos)
+        throw Error(Fault::usage, fmt::format("--output is '{}', expected a file whose name AFF can mention, without "
+                                              "spaces, braces, # and %",
+                                              choice.output));
     const std::uint64_t triangles = entry.write(request);
     out << fmt::format("{}: {} triangles", request.file.string(), triangles) << std::endl;
     if (!out) throw FileError("cannot write to standard output");

@@ -1,20 +1,15 @@
 #include "scenes/generator/split_writer.h"
 
 namespace firstray::scenes {
-namespace {
 
-constexpr std::uint64_t full = 200u << 20;  // bytes
-
-}  // namespace
-
-SplitWriter::SplitWriter(const Request& request, std::string part, AffWriter& main)
-    : request_(request), main_(main), part_(std::move(part))
+SplitWriter::SplitWriter(const Request& request, std::string part, AffWriter& main, std::uint64_t full)
+    : request_(request), main_(main), part_(std::move(part)), full_(full)
 {
 }
 
 AffWriter& SplitWriter::out()
 {
-    if (file_ && file_->bytes() > full) finish();
+    if (file_ && file_->bytes() > full_) finish();
     if (!file_) {
         const std::string rest = part_ + "_" + std::to_string(files_++) + ".aff";
         name_ = request_.name(rest);

@@ -12,7 +12,8 @@ namespace firstray::scenes {
 class SplitWriter {
 public:
     /// part  begins the files' names; request and main must outlive the writer
-    SplitWriter(const Request& request, std::string part, AffWriter& main);
+    /// full  bytes of a file after which no more is begun in it
+    SplitWriter(const Request& request, std::string part, AffWriter& main, std::uint64_t full = 200u << 20);
 
     /// Where to write what belongs together, with no transform open: the next file where this one is full.
     AffWriter& out();
@@ -24,6 +25,7 @@ private:
     const Request& request_;
     AffWriter& main_;
     std::string part_, name_;
+    std::uint64_t full_;
     std::optional<AffWriter> file_;
     int files_ = 0;
 };

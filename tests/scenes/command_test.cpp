@@ -72,6 +72,9 @@ TEST_CASE("generate names the file it wrote, and the trouble where it could not"
     CHECK(said.out.starts_with(file + ": 60"));
     CHECK(std::filesystem::exists(file));
     folder.write("plain", "");
+    const std::string spaces = (folder.path() / "a b" / "r.aff").string();
+    CHECK(generate({"robot", "--output", spaces}).code == 0);
+    CHECK(generate({"robot", "--output", (folder.path() / "a b.aff").string()}).code == 2);
     const Said trouble = generate({"robot", "--output", (folder.path() / "plain" / "r.aff").string()});
     CHECK(trouble.code == 4);
     CHECK(trouble.err.find("plain") != std::string::npos);

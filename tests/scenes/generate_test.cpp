@@ -162,8 +162,8 @@ TEST_CASE("all strategies agree about the scenes that are made")
         int hits = 0;
         for (const double part : {0.1, 0.7}) {
             const Pose now = pose(scene, part * scene.end);
-            std::vector<TestRay> rays = view_rays(now, 14, 10);
-            const std::vector<TestRay> around = view_rays(now, 14, 10, &random),
+            std::vector<TestRay> rays = view_rays(now, 12, 9);
+            const std::vector<TestRay> around = view_rays(now, 12, 9, &random),
                                        awkward = test::awkward_rays(3, scene, 40);
             rays.insert(rays.end(), around.begin(), around.end());
             rays.insert(rays.end(), awkward.begin(), awkward.end());
