@@ -11,7 +11,7 @@ std::span<const SceneEntry> scene_entries()
         {"art", "a thing that changes its shape in a gallery", "--triangles", "triangles in all", 2e4, 1e4, 1e6, true,
          &write_art},
         {"stadium", "a detailed small thing in a large coarse place", "--ratio", "how many times larger the place is",
-         1000, 10, 1e5, false, &write_stadium},
+         1000, 50, 1e5, false, &write_stadium},
         {"crowd", "a town among hills; a street hides nearly all of it", "--triangles", "triangles in all", 1e6, 1e5,
          1e8, true, &write_crowd},
         {"explode", "spheres burst into 400 pieces: nothing can be kept", "", "", 0, 0, 0, true, &write_explode},
