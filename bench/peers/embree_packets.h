@@ -75,7 +75,7 @@ Lanes<width> load(const RayTile<float>& tile, int first, typename PacketOf<width
 template <int width, typename BodyOf>
 void closest_in_packets(RTCScene scene, RayTile<float>& tile, const BodyOf& body_of)
 {
-    RTCIntersectContext context = context_for(tile);
+    RTCIntersectContext context = context_with(RTC_INTERSECT_CONTEXT_FLAG_COHERENT);
     typename PacketOf<width>::RayHits query;
     prepare<width>(tile, query.ray);
     for (int first = 0; first < tile.count; first += width) {
@@ -95,11 +95,11 @@ void closest_in_packets(RTCScene scene, RayTile<float>& tile, const BodyOf& body
 }
 
 /// Strategy::occluded for a tile with a common, finite apex.
-/// met  as of trace_occluded
+/// met, flags  as of trace_occluded
 template <int width>
-void occluded_in_packets(RTCScene scene, RayTile<float>& tile, PrimitiveId met)
+void occluded_in_packets(RTCScene scene, RayTile<float>& tile, PrimitiveId met, RTCIntersectContextFlags flags)
 {
-    RTCIntersectContext context = context_for(tile);
+    RTCIntersectContext context = context_with(flags);
     typename PacketOf<width>::Rays rays;
     prepare<width>(tile, rays);
     for (int first = 0; first < tile.count; first += width) {

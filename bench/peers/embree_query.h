@@ -43,11 +43,11 @@ inline ClosedInterval inside(float t_min, float t_max)
     return {t_min > 0.0f ? neighbour(t_min, 1u) : std::numeric_limits<float>::min(), neighbour(t_max, -1u)};
 }
 
-inline RTCIntersectContext context_for(const RayTile<float>& rays)
+inline RTCIntersectContext context_with(RTCIntersectContextFlags flags)
 {
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
-    context.flags = rays.common_apex ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
+    context.flags = flags;
     return context;
 }
 

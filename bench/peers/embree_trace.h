@@ -24,7 +24,7 @@ inline bool load(const RayTile<float>& tile, int i, RTCRay& ray)
 template <typename BodyOf>
 void closest_one_by_one(RTCScene scene, RayTile<float>& tile, const BodyOf& body_of)
 {
-    RTCIntersectContext context = context_for(tile);
+    RTCIntersectContext context = context_with(RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT);
     for (int i = 0; i < tile.count; ++i) {
         const auto lane = static_cast<std::size_t>(i);
         tile.primitive[lane] = no_primitive;
@@ -42,7 +42,7 @@ void closest_one_by_one(RTCScene scene, RayTile<float>& tile, const BodyOf& body
 
 inline void occluded_one_by_one(RTCScene scene, RayTile<float>& tile, PrimitiveId met)
 {
-    RTCIntersectContext context = context_for(tile);
+    RTCIntersectContext context = context_with(RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT);
     for (int i = 0; i < tile.count; ++i) {
         RTCRay ray;
         bool is_met = false;
@@ -88,16 +88,18 @@ void trace_closest(RTCScene scene, int widest, RayTile<float>& tile, const BodyO
 /// Strategy::occluded.
 /// widest  as of trace_closest
 /// met     what is named as the primitive of rays that meet something
-inline void trace_occluded(RTCScene scene, int widest, RayTile<float>& tile, PrimitiveId met)
+/// flags   of packets
+inline void trace_occluded(RTCScene scene, int widest, RayTile<float>& tile, PrimitiveId met,
+                           RTCIntersectContextFlags flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT)
 {
     const FlushSubnormals flush;
     switch (packet_width(tile, widest)) {
         case 16:
-            return occluded_in_packets<16>(scene, tile, met);
+            return occluded_in_packets<16>(scene, tile, met, flags);
         case 8:
-            return occluded_in_packets<8>(scene, tile, met);
+            return occluded_in_packets<8>(scene, tile, met, flags);
         case 4:
-            return occluded_in_packets<4>(scene, tile, met);
+            return occluded_in_packets<4>(scene, tile, met, flags);
         default:
             return occluded_one_by_one(scene, tile, met);
     }

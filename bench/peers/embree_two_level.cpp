@@ -55,7 +55,11 @@ public:
                       [this](unsigned instance) -> const Body& { return *bodies_[instance]; });
     }
 
-    void occluded(RayTile<float>& rays) const override { trace_occluded(top_.get(), packet_width_, rays, met_); }
+    // Coherent packets of shadow rays do not come back from Embree 3.13.5 where there are instances: it loops for ever.
+    void occluded(RayTile<float>& rays) const override
+    {
+        trace_occluded(top_.get(), packet_width_, rays, met_, RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT);
+    }
 
     StructureReport report() const override
     {
