@@ -11,6 +11,7 @@
 ///   The time to lay them out as Embree wants them, and to bring the hits back, is in the trace's. Other rays are
 ///   traced one by one, rtcIntersect1 and rtcOccluded1. Ray streams and filter callbacks are not used; a RayMask is
 ///   Embree's own ray mask, whose test is compiled in for all queries.
+/// - Shadow packets through instances (embree-two-level) go without that flag: with it Embree 3.13.5 loops for ever.
 /// - Spheres, cones and cylinders are user geometry that the engine's own test intersects, in double, ray by ray.
 /// - Embree keeps to the instruction set that our kernels use when the strategy is made (engine/core/simd.h).
 /// - The precision robust sets RTC_SCENE_FLAG_ROBUST, fast does not. The sign of an edge is still decided in float, so
@@ -39,9 +40,10 @@ std::unique_ptr<Strategy<float>> make_embree_medium(const Scene& scene, const St
 /// Likewise with RTC_BUILD_QUALITY_LOW and RTC_SCENE_FLAG_DYNAMIC (Morton codes): builds faster, traces slower.
 std::unique_ptr<Strategy<float>> make_embree_low(const Scene& scene, const StrategyOptions& options, Options own);
 
-/// Likewise with RTC_BUILD_QUALITY_REFIT and RTC_SCENE_FLAG_DYNAMIC: a tree of medium quality, whose boxes then follow
-/// what moves. Built anew when groups appear or vanish. Traces the slower the farther things have gone from where they
-/// were when it was built, so that unlike the others' its speed depends on the frames before.
+/// Likewise with geometries of RTC_BUILD_QUALITY_REFIT in a dynamic scene: their trees are of medium quality and built
+/// once, their boxes then follow what moves, and the few nodes over them are made anew. All is built anew when groups
+/// appear or vanish. Traces the slower the farther things have gone from where they were when it was built, so that
+/// unlike the others' its speed depends on the frames before.
 std::unique_ptr<Strategy<float>> make_embree_refit(const Scene& scene, const StrategyOptions& options, Options own);
 
 /// An instanced scene per group, built once with medium quality; a frame moves instances and rebuilds the tree over

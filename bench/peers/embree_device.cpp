@@ -66,8 +66,10 @@ SceneHandle Device::new_scene(const BuildChoice& choice) const
 {
     SceneHandle scene(rtcNewScene(device_));
     check(device_, "making a scene");
-    const bool refits = choice.quality == RTC_BUILD_QUALITY_REFIT;  // which is for geometries alone
-    rtcSetSceneBuildQuality(scene.get(), refits ? RTC_BUILD_QUALITY_MEDIUM : choice.quality);
+    // A scene of medium quality is always built anew; in one of low quality each geometry has a tree of its own
+    // quality.
+    const bool refits = choice.quality == RTC_BUILD_QUALITY_REFIT;
+    rtcSetSceneBuildQuality(scene.get(), refits ? RTC_BUILD_QUALITY_LOW : choice.quality);
     rtcSetSceneFlags(scene.get(), choice.flags);
     return scene;
 }

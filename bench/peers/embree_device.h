@@ -21,8 +21,8 @@ using GeometryHandle = std::unique_ptr<std::remove_pointer_t<RTCGeometry>, Relea
 
 /// How a scene is built.
 struct BuildChoice {
-    /// Of the geometries, and of the tree over them. RTC_BUILD_QUALITY_REFIT, which needs RTC_SCENE_FLAG_DYNAMIC: a
-    /// geometry's first tree is of medium quality, and moves with its primitives from then on.
+    /// With RTC_BUILD_QUALITY_REFIT a geometry's first tree is of medium quality, and follows its primitives from then
+    /// on.
     RTCBuildQuality quality = RTC_BUILD_QUALITY_MEDIUM;
     RTCSceneFlags flags = RTC_SCENE_FLAG_NONE;
 };
