@@ -7,6 +7,7 @@
 #endif
 
 #include "engine/grid/beam_box_search-inl.h"
+#include "engine/grid/pack_lists.h"
 #include "lazy/search.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -93,8 +94,13 @@ struct LazyBeamSearch : BeamSearch<BeamQuest, BeamRootPrimitives> {
 
     HWY_INLINE void visit(const LazyVoxel& voxel, PacketMask packets, const LazyResolver&)
     {
-        const GridStructure* built = grid->voxel(voxel.cell);
-        if (HWY_UNLIKELY(!built)) return unbuilt(voxel.cell, packets);
+        const GridStructure* built = grid->built(voxel.cell);
+        if (HWY_UNLIKELY(!built)) {
+            const Aabb box = cell_box(grid->top().grids[0], voxel.cell);
+            if (!any_ray_meets(this->quest.rays, packets, box.lo, box.hi, 4.0f * this->wide)) return;
+            built = grid->voxel(voxel.cell);
+            if (!built) return unbuilt(voxel.cell, packets);
+        }
         this->structure = built;
         if (built->cells.size() == 1)
             Base::list(built->lists[0], packets);

@@ -222,6 +222,8 @@ struct PacketHits {
 };
 
 /// intersect() of triangle.h for the sixteen rays from `first` on, and taking the hit where it counts.
+/// any_hit  that there is a hit is all that counts: t need not be exact where it is far enough from both ends
+template <bool any_hit>
 HWY_INLINE PacketHits test_packet(const ApexTriangle& p, PrimitiveId id, bool exact_signs, BeamRays& rays, int first)
 {
     const PackLanes d;
@@ -252,10 +254,12 @@ HWY_INLINE PacketHits test_packet(const ApexTriangle& p, PrimitiveId id, bool ex
         const auto is_sloped =
             p.has_volume ? hn::Gt(hn::Abs(slope), hn::Mul(set(least_slope), hn::Mul(set(p.span), length)))
                          : hn::FirstN(d, 0);
-        const auto is_placed =
-            hn::And(is_sloped, hn::Ge(hn::Mul(t_size, length), set(least_distance * p.distance)));
+        auto is_placed = hn::And(is_sloped, hn::Ge(hn::Mul(t_size, length), set(least_distance * p.distance)));
         const V t_error = hn::Mul(set(quotient_error), hn::Add(t_size, hn::Div(set(p.distance), length)));
         const auto is_outside = hn::Or(hn::Lt(hn::Add(t, t_error), t_min), hn::Gt(hn::Sub(t, t_error), t_last));
+        if (any_hit)
+            is_placed = hn::Or(is_placed, hn::And(is_sloped, hn::And(hn::Gt(hn::Sub(t, t_error), t_min),
+                                                                     hn::Lt(hn::Add(t, t_error), t_last))));
         const auto in_range = hn::And(hn::Gt(t, t_min), hn::Le(t, t_last));
         maybe = hn::AndNot(hn::And(is_placed, hn::Not(in_range)), maybe);
         maybe = hn::AndNot(hn::And(hn::AndNot(is_placed, is_sloped), is_outside), maybe);
@@ -280,6 +284,31 @@ HWY_INLINE PacketHits test_packet(const ApexTriangle& p, PrimitiveId id, bool ex
         hn::BlendedStore(new_id, hn::RebindMask(du, counts), du, rays.id.data() + lane);
     }
     return result;
+}
+
+/// Whether any ray of the packets is in a box before it ends: what packets, which are wider than their rays, only may.
+/// lo, hi  corners in the root system
+/// wide    by how much the box is widened
+HWY_INLINE bool any_ray_meets(const BeamRays& rays, PacketMask packets, const glm::vec3& lo, const glm::vec3& hi,
+                                float wide)
+{
+    const PackLanes d;
+    for (; packets != 0; packets &= packets - 1) {
+        const int begin = __builtin_ctzll(packets) * packet_size;
+        for (int lane = begin; lane < begin + packet_size; lane += kernel_lanes) {
+            const auto end = hn::Load(d, rays.t.data() + lane);
+            auto enter = hn::Load(d, rays.t_min.data() + lane), leave = hn::MulAdd(end, hn::Set(d, t_slack), end);
+            for (int axis = 0; axis < 3; ++axis) {
+                const auto inverse = hn::Div(hn::Set(d, 1.0f), hn::Load(d, rays.direction[axis].data() + lane));
+                const auto a = hn::Mul(hn::Set(d, lo[axis] - wide - rays.apex[axis]), inverse),
+                           b = hn::Mul(hn::Set(d, hi[axis] + wide - rays.apex[axis]), inverse);
+                enter = hn::Max(enter, hn::Min(a, b));
+                leave = hn::Min(leave, hn::Max(a, b));
+            }
+            if (!hn::AllFalse(d, hn::Le(enter, leave))) return true;
+        }
+    }
+    return false;
 }
 
 /// The depth beyond which nothing can beat a packet's hits; minus infinity where all rays are done.

@@ -29,24 +29,10 @@ bool goes_along(const glm::vec3& d, const BeamAxes& axes)
            std::abs(d[axes.v]) <= end;
 }
 
-/// Rays sorted by where they lie in the beam: their places on a Morton curve of 256 x 256 squares.
-struct Sorted {
-    static constexpr int capacity = RayTile<float>::capacity;
-    std::uint32_t key[capacity];  ///< place << 16 | index in the part
-    float u[capacity], v[capacity];  ///< slopes, by index in the part
-};
-
-std::uint32_t spread(std::uint32_t x)
-{
-    x = (x | (x << 4)) & 0x0f0fu;
-    x = (x | (x << 2)) & 0x3333u;
-    return (x | (x << 1)) & 0x5555u;
-}
-
 /// By the upper half of the keys, eight bits at a time.
 void sort(std::uint32_t* keys, int count)
 {
-    std::uint32_t other[Sorted::capacity];
+    std::uint32_t other[BeamPlaces::capacity];
     std::uint32_t* from = keys;
     std::uint32_t* to = other;
     for (const int shift : {16, 24}) {
@@ -66,7 +52,7 @@ struct Square {
     }
 };
 
-Square around(const Sorted& sorted, int begin, int end)
+Square around(const BeamPlaces& sorted, int begin, int end)
 {
     Square s;
     for (int i = begin; i < end; ++i) {
@@ -81,7 +67,7 @@ Square around(const Sorted& sorted, int begin, int end)
 
 /// Calls emit(begin, end) for runs of rays that fill the square around them.
 template <typename Emit>
-void for_each_cluster(const Sorted& sorted, int begin, int end, int shift, float area, float least, const Emit& emit)
+void for_each_cluster(const BeamPlaces& sorted, int begin, int end, int shift, float area, float least, const Emit& emit)
 {
     constexpr float worth_cutting = 0.5f;
     if (end - begin <= packet_size || shift < 16) return emit(begin, end);
@@ -109,8 +95,8 @@ BeamAxes axes_of(const glm::vec3& direction)
 
 void BeamOrder::take_all(int rays, const BeamAxes& axes)
 {
-    for (int i = 0; i < rays; ++i) lanes[i] = i;
-    parts[count++] = {0, rays, axes};
+    in_order = true;
+    add({0, rays, axes});
 }
 
 void BeamOrder::split(const RayTile<float>& tile)
@@ -156,29 +142,18 @@ void BeamOrder::split(const RayTile<float>& tile)
     count = kept;
 }
 
-void BeamOrder::cluster(const RayTile<float>& tile, const BeamPart& part, const float (&bounds)[4])
+void BeamOrder::cluster(const BeamPart& part, BeamPlaces& places)
 {
-    Sorted sorted;
-    const float wide_u = std::max(bounds[2] - bounds[0], 1e-20f), wide_v = std::max(bounds[3] - bounds[1], 1e-20f);
-    for (int i = 0; i < part.count; ++i) {
-        const glm::vec3 d = tile.direction_of(lanes[part.first + i]);
-        const float inverse = part.axes.forward / d[part.axes.k];
-        sorted.u[i] = d[part.axes.u] * inverse;
-        sorted.v[i] = d[part.axes.v] * inverse;
-        const auto square = [](float x, float lo, float wide) {
-            return static_cast<std::uint32_t>(std::clamp((x - lo) / wide * 256.0f, 0.0f, 255.0f));
-        };
-        const std::uint32_t place =
-            spread(square(sorted.u[i], bounds[0], wide_u)) | spread(square(sorted.v[i], bounds[1], wide_v)) << 1;
-        sorted.key[i] = place << 16 | static_cast<std::uint32_t>(i);
-    }
-    sort(sorted.key, part.count);
-
+    sort(places.key, part.count);
     std::int32_t moved[capacity];
-    for (int i = 0; i < part.count; ++i) moved[i] = lanes[part.first + static_cast<int>(sorted.key[i] & 0xffffu)];
+    for (int i = 0; i < part.count; ++i) {
+        const int ray = static_cast<int>(places.key[i] & 0xffffu);
+        moved[i] = in_order ? ray : lanes[part.first + ray];
+    }
     std::copy(moved, moved + part.count, lanes + part.first);
-    const float least = std::max(wide_u, wide_v) / 256.0f;
-    for_each_cluster(sorted, 0, part.count, 30, wide_u * wide_v, least, [&](int begin, int end) {
+    in_order = false;
+    const float least = std::max(places.wide_u, places.wide_v) / 256.0f;
+    for_each_cluster(places, 0, part.count, 30, places.wide_u * places.wide_v, least, [&](int begin, int end) {
         if (end - begin >= fewest_rays)
             add({part.first + begin, end - begin, part.axes});
         else

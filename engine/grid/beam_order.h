@@ -25,6 +25,15 @@ struct BeamPart {
     BeamAxes axes;
 };
 
+/// Where a part's rays lie in their beam.
+struct BeamPlaces {
+    static constexpr int capacity = RayTile<float>::capacity;
+    /// By ray: its place on a Morton curve of 256 x 256 squares << 16 | its index in the part.
+    alignas(64) std::uint32_t key[capacity];
+    alignas(64) float u[capacity], v[capacity];  ///< slopes, by index in the part
+    float wide_u, wide_v;                        ///< extents of the slopes
+};
+
 /// Which rays of a tile make a beam.
 struct BeamOrder {
     static constexpr int capacity = RayTile<float>::capacity;
@@ -34,14 +43,18 @@ struct BeamOrder {
     BeamPart parts[most_parts];
     int count = 0;  ///< parts
     int singles = 0;
+    bool in_order = false;  ///< one part of all rays as they are: lanes are not filled in
+
+    /// The lanes of a part; null where they are the tile's first.
+    const std::int32_t* lanes_of(const BeamPart& part) const { return in_order ? nullptr : lanes + part.first; }
 
     /// All rays in one beam, in the tile's order.
     void take_all(int rays, const BeamAxes& axes);
     /// Rays along most rays' axis in one beam, the others by their own axes; what cannot be in a beam, one by one.
     void split(const RayTile<float>& tile);
-    /// Sorts a part's rays by their slopes and cuts it where they leave large gaps: the new parts are appended.
-    /// bounds  of the slopes: least u, v, most u, v
-    void cluster(const RayTile<float>& tile, const BeamPart& part, const float (&bounds)[4]);
+    /// Sorts a part's rays by their places, which are sorted too, and cuts it where they leave large gaps: the new
+    /// parts are appended.
+    void cluster(const BeamPart& part, BeamPlaces& places);
 
 private:
     void add(const BeamPart& part);

@@ -36,7 +36,7 @@ HWY_INLINE bool all_go_along(const RayTile<float>& tile, const BeamAxes& axes)
 }
 
 /// Loads rays of a tile into packets, in order; the last packet is filled up with rays that are done.
-/// lanes  the tile's, `count` of them, [1, 1024]
+/// lanes  the tile's, `count` of them, [1, 1024]; null: the first
 HWY_INLINE void load_rays(const RayTile<float>& tile, const std::int32_t* lanes, int count, BeamRays& rays)
 {
     const PackLanes d;
@@ -46,22 +46,30 @@ HWY_INLINE void load_rays(const RayTile<float>& tile, const std::int32_t* lanes,
     rays.packets = (count + packet_size - 1) / packet_size;
     alignas(64) std::int32_t padded[packet_size];
     for (int first = 0; first < rays.packets * packet_size; first += kernel_lanes) {
+        const auto to = static_cast<std::size_t>(first);
+        const bool is_whole = first + kernel_lanes <= count;
         const std::int32_t* from = lanes + first;
-        if (first + kernel_lanes > count) {
-            for (int i = 0; i < kernel_lanes; ++i) padded[i] = lanes[std::min(first + i, count - 1)];
+        if (!is_whole) {
+            for (int i = 0; i < kernel_lanes; ++i) {
+                const int ray = std::min(first + i, count - 1);
+                padded[i] = lanes ? lanes[ray] : ray;
+            }
             from = padded;
         }
-        const auto index = hn::LoadU(di, from);
-        const auto to = static_cast<std::size_t>(first);
+        const bool in_order = !lanes && is_whole;
+        const auto index = in_order ? hn::Zero(di) : hn::LoadU(di, from);
+        const auto take = [&](const RayTile<float>::Lane& values) HWY_ATTR {
+            return in_order ? hn::Load(d, values.data() + to) : hn::GatherIndex(d, values.data(), index);
+        };
         auto length = hn::Zero(d);
         for (int axis = 0; axis < 3; ++axis) {
-            const auto component = hn::GatherIndex(d, tile.direction[axis].data(), index);
+            const auto component = take(tile.direction[axis]);
             hn::Store(component, d, rays.direction[axis].data() + to);
             length = hn::Max(length, hn::Abs(component));
         }
         hn::Store(length, d, rays.length.data() + to);
-        hn::Store(hn::GatherIndex(d, tile.t_min.data(), index), d, rays.t_min.data() + to);
-        const auto end = hn::GatherIndex(d, tile.t_max.data(), index);
+        hn::Store(take(tile.t_min), d, rays.t_min.data() + to);
+        const auto end = take(tile.t_max);
         const auto is_ray = hn::FirstN(d, static_cast<std::size_t>(std::clamp(count - first, 0, kernel_lanes)));
         hn::Store(hn::IfThenElse(is_ray, end, hn::Set(d, -std::numeric_limits<float>::infinity())), d,
                   rays.t.data() + to);
@@ -147,11 +155,59 @@ HWY_INLINE bool is_well_packed(const Beam& beam)
     return beam.count <= 1 || (sum < 0.75f * all && sum > 0.2f * all);
 }
 
+/// Where the loaded rays lie among the beam's slopes.
+HWY_INLINE void find_places(const BeamRays& rays, const Beam& root, BeamPlaces& places)
+{
+    const PackLanes d;
+    const hn::RebindToUnsigned<PackLanes> du;
+    const hn::RebindToSigned<PackLanes> di;
+    const int axes[2] = {root.u, root.v};
+    const auto spread = [&](auto x) HWY_ATTR {
+        x = hn::And(hn::Or(x, hn::ShiftLeft<4>(x)), hn::Set(du, 0x0f0fu));
+        x = hn::And(hn::Or(x, hn::ShiftLeft<2>(x)), hn::Set(du, 0x3333u));
+        return hn::And(hn::Or(x, hn::ShiftLeft<1>(x)), hn::Set(du, 0x5555u));
+    };
+    places.wide_u = std::max(root.hi[0] - root.lo[0], 1e-20f);
+    places.wide_v = std::max(root.hi[1] - root.lo[1], 1e-20f);
+    const float scales[2] = {256.0f / places.wide_u, 256.0f / places.wide_v};
+    float* const slopes[2] = {places.u, places.v};
+    for (int first = 0; first < rays.packets * packet_size; first += kernel_lanes) {
+        const auto at = static_cast<std::size_t>(first);
+        const auto inverse = hn::Div(hn::Set(d, root.forward), hn::Load(d, rays.direction[root.k].data() + at));
+        auto key = hn::Iota(du, static_cast<std::uint32_t>(first));
+        for (int side = 0; side < 2; ++side) {
+            const auto slope = hn::Mul(hn::Load(d, rays.direction[axes[side]].data() + at), inverse);
+            hn::Store(slope, d, slopes[side] + first);
+            const auto square = hn::Mul(hn::Sub(slope, hn::Set(d, root.lo[side])), hn::Set(d, scales[side]));
+            const auto clamped = hn::Min(hn::Max(square, hn::Zero(d)), hn::Set(d, 255.0f));
+            const auto spread_out = spread(hn::BitCast(du, hn::ConvertTo(di, clamped)));
+            key = hn::Or(key, side == 0 ? hn::ShiftLeft<16>(spread_out) : hn::ShiftLeft<17>(spread_out));
+        }
+        hn::Store(key, du, places.key + first);
+    }
+}
+
 /// Puts what was found into the tile.
+/// lanes  as load_rays() took them
 HWY_INLINE void store_hits(const BeamRays& rays, const std::int32_t* lanes, int count, RayTile<float>& tile)
 {
-    for (int i = 0; i < count; ++i) {
-        const auto from = static_cast<std::size_t>(i), to = static_cast<std::size_t>(lanes[i]);
+    const PackLanes d;
+    const hn::RebindToUnsigned<PackLanes> du;
+    int i = 0;
+    for (; !lanes && i + kernel_lanes <= count; i += kernel_lanes) {
+        const auto at = static_cast<std::size_t>(i);
+        const auto id = hn::Load(du, rays.id.data() + at);
+        const auto hit = hn::RebindMask(d, hn::Ne(id, hn::Set(du, no_primitive)));
+        hn::Store(id, du, tile.primitive.data() + at);
+        const auto put = [&](const BeamRays::Lane& from, RayTile<float>::Lane& to) HWY_ATTR {
+            hn::BlendedStore(hn::Load(d, from.data() + at), hit, d, to.data() + at);
+        };
+        put(rays.t, tile.t_max);
+        put(rays.u, tile.u);
+        put(rays.v, tile.v);
+    }
+    for (; i < count; ++i) {
+        const auto from = static_cast<std::size_t>(i), to = static_cast<std::size_t>(lanes ? lanes[i] : i);
         if (rays.id[from] == no_primitive) continue;
         tile.primitive[to] = rays.id[from];
         tile.t_max[to] = rays.t[from];
@@ -171,10 +227,10 @@ HWY_NOINLINE void search_by_beams(RayTile<float>& tile, const Search& search, co
     BeamOrder order;
     const auto send = [&](const BeamPart& part) HWY_ATTR {
         search(rays, root);
-        store_hits(rays, order.lanes + part.first, part.count, tile);
+        store_hits(rays, order.lanes_of(part), part.count, tile);
     };
     const auto load = [&](const BeamPart& part) HWY_ATTR {
-        load_rays(tile, order.lanes + part.first, part.count, rays);
+        load_rays(tile, order.lanes_of(part), part.count, rays);
         make_root_beam(rays, part.axes, root);
         finish_beam(root);
     };
@@ -193,7 +249,9 @@ HWY_NOINLINE void search_by_beams(RayTile<float>& tile, const Search& search, co
             continue;
         }
         const int first = order.count, single = order.singles;
-        order.cluster(tile, part, {root.lo[0], root.lo[1], root.hi[0], root.hi[1]});
+        BeamPlaces places;
+        find_places(rays, root, places);
+        order.cluster(part, places);
         for (int i = single; i < order.singles; ++i) one(order.single[i]);
         for (int c = first; c < order.count; ++c) {
             load(order.parts[c]);

@@ -31,7 +31,7 @@ struct BeamQuest {
         const ApexTriangle seen = make_apex_triangle(triangle, rays.apex);
         for (; packets != 0; packets &= packets - 1) {
             const int packet = __builtin_ctzll(packets);
-            const PacketHits found = test_packet(seen, id, precision != Precision::fast, rays, packet * packet_size);
+            const PacketHits found = test_packet<query == Query::any>(seen, id, precision != Precision::fast, rays, packet * packet_size);
             std::uint32_t hits = found.hits;
             for (std::uint32_t rest = found.uncertain; rest != 0; rest &= rest - 1) {
                 const int lane = __builtin_ctz(rest);

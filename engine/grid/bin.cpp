@@ -17,11 +17,27 @@ std::uint32_t cell_index(const Grid& grid, const glm::ivec3& c)
     return static_cast<std::uint32_t>(c.x + grid.dims.x * (c.y + grid.dims.y * c.z));
 }
 
+/// Finds cells with multiplications: the rounding of a cell's inverse is a small part of the pad.
+struct CellFinder {
+    glm::vec3 lo, scale, last;
+    float pad;
+
+    CellFinder(const Grid& grid, float wide)
+        : lo(grid.lo), scale(1.0f / grid.cell), last(grid.dims - 1), pad(wide)
+    {
+    }
+    CellRange cells(const Aabb& box) const
+    {
+        const glm::vec3 from = (box.lo - pad - lo) * scale, to = (box.hi + pad - lo) * scale;
+        return {glm::ivec3(glm::clamp(from, glm::vec3(0.0f), last)), glm::ivec3(glm::clamp(to, glm::vec3(0.0f), last))};
+    }
+};
+
 /// Calls visit(cell) for each cell that the entry overlaps.
 template <typename Visit>
-void for_each_cell(const Grid& grid, const GridEntries& entries, std::uint32_t entry, Visit&& visit)
+void for_each_cell(const Grid& grid, const GridEntries& entries, std::uint32_t entry, const CellRange& range,
+                   Visit&& visit)
 {
-    const CellRange range = cells_of(grid, entries.boxes[entry], entries.pad);
     const glm::ivec3 last = range.hi - range.lo;
     const auto visit_all = [&](auto&& overlaps) {
         for (int z = range.lo.z; z <= range.hi.z; ++z)
@@ -45,16 +61,24 @@ void for_each_cell(const Grid& grid, const GridEntries& entries, std::uint32_t e
 
 CellRange cells_of(const Grid& grid, const Aabb& box, float pad)
 {
-    const glm::vec3 last(grid.dims - 1);
-    const glm::vec3 lo = (box.lo - pad - grid.lo) / grid.cell, hi = (box.hi + pad - grid.lo) / grid.cell;
-    return {glm::ivec3(glm::clamp(lo, glm::vec3(0.0f), last)), glm::ivec3(glm::clamp(hi, glm::vec3(0.0f), last))};
+    return CellFinder(grid, pad).cells(box);
 }
 
-std::uint64_t estimate_references(const Grid& grid, const GridEntries& entries, std::span<const std::uint32_t> chosen)
+RawVector<CellRange> ranges_of(const Grid& grid, const GridEntries& entries, std::span<const std::uint32_t> chosen,
+                               const Executor* executor)
+{
+    RawVector<CellRange> ranges(chosen.size());
+    const CellFinder finder(grid, entries.pad);
+    for_pieces(executor, chosen.size(), 8192, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) ranges[i] = finder.cells(entries.boxes[chosen[i]]);
+    });
+    return ranges;
+}
+
+std::uint64_t estimate_references(std::span<const CellRange> ranges)
 {
     std::uint64_t total = 0;
-    for (const std::uint32_t entry : chosen) {
-        const CellRange range = cells_of(grid, entries.boxes[entry], entries.pad);
+    for (const CellRange& range : ranges) {
         const glm::u64vec3 n(range.hi - range.lo + 1);
         total += std::min(n.x * n.y * n.z, n.x * n.y + n.y * n.z + n.z * n.x);
     }
@@ -62,7 +86,7 @@ std::uint64_t estimate_references(const Grid& grid, const GridEntries& entries, 
 }
 
 CellLists bin(const Grid& grid, const GridEntries& entries, std::span<const std::uint32_t> chosen,
-              const Executor* executor)
+              std::span<const CellRange> ranges, const Executor* executor)
 {
     // Every piece of the entries makes its references; a piece's share of a cell's list follows those of the pieces
     // before.
@@ -81,7 +105,7 @@ CellLists bin(const Grid& grid, const GridEntries& entries, std::span<const std:
         place[piece].resize(cells);
         references[piece].reserve((end - begin) * 2);
         for (std::size_t i = begin; i < end; ++i)
-            for_each_cell(grid, entries, chosen[i], [&](std::uint32_t cell) {
+            for_each_cell(grid, entries, chosen[i], ranges[i], [&](std::uint32_t cell) {
                 ++place[piece][cell];
                 references[piece].push_back({cell, chosen[i]});
             });

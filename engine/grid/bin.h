@@ -34,13 +34,19 @@ struct CellRange {
 };
 CellRange cells_of(const Grid& grid, const Aabb& box, float pad);
 
+/// The cells that the boxes of the given entries reach, one range for each.
+/// executor  null: on this thread
+RawVector<CellRange> ranges_of(const Grid& grid, const GridEntries& entries, std::span<const std::uint32_t> chosen,
+                               const Executor* executor);
+
 /// Lists each of the given entries in every cell that it overlaps: triangles exactly (plus pad), others by their boxes.
+/// ranges    ranges_of() the same
 /// executor  null: on this thread
 CellLists bin(const Grid& grid, const GridEntries& entries, std::span<const std::uint32_t> chosen,
-              const Executor* executor);
+              std::span<const CellRange> ranges, const Executor* executor);
 
 /// An estimate, from boxes alone, of how many references bin() would make: a triangle of many cells is taken for a
 /// surface.
-std::uint64_t estimate_references(const Grid& grid, const GridEntries& entries, std::span<const std::uint32_t> chosen);
+std::uint64_t estimate_references(std::span<const CellRange> ranges);
 
 }  // namespace firstray

@@ -43,9 +43,14 @@ std::uint64_t allowed_references(double allowance, std::size_t entries)
     return static_cast<std::uint64_t>(allowance * static_cast<double>(entries)) + free_references;
 }
 
+struct ChosenGrid {
+    Grid grid;
+    RawVector<CellRange> ranges;  ///< of the entries
+};
+
 /// A grid over a box for so many primitives, coarser where it would make too many references.
-Grid choose_grid(const Aabb& box, const GridEntries& entries, std::span<const std::uint32_t> chosen, float density,
-                 double allowance)
+ChosenGrid choose_grid(const Aabb& box, const GridEntries& entries, std::span<const std::uint32_t> chosen,
+                       float density, double allowance, const Executor* executor)
 {
     Grid grid;
     grid.lo = box.lo - entries.pad;
@@ -53,9 +58,9 @@ Grid choose_grid(const Aabb& box, const GridEntries& entries, std::span<const st
     for (;; density *= 0.25f) {
         grid.dims = choose_grid_dims(size, chosen.size(), density);
         grid.cell = size / glm::vec3(grid.dims);
-        if (grid.cells() == 1 ||
-            estimate_references(grid, entries, chosen) <= allowed_references(allowance, chosen.size()))
-            return grid;
+        RawVector<CellRange> ranges = ranges_of(grid, entries, chosen, executor);
+        if (grid.cells() == 1 || estimate_references(ranges) <= allowed_references(allowance, chosen.size()))
+            return {grid, std::move(ranges)};
     }
 }
 
@@ -85,8 +90,9 @@ std::unique_ptr<GridNode> build_node(const Aabb& box, const GridEntries& entries
                                      const Executor* executor)
 {
     auto node = std::make_unique<GridNode>();
-    node->grid = choose_grid(box, entries, chosen, density, allowance);
-    node->lists = bin(node->grid, entries, chosen, executor);
+    const ChosenGrid found = choose_grid(box, entries, chosen, density, allowance, executor);
+    node->grid = found.grid;
+    node->lists = bin(found.grid, entries, chosen, found.ranges, executor);
     if (levels_left <= 1) return node;
     const double left = allowance * static_cast<double>(chosen.size()) /
                         static_cast<double>(std::max<std::size_t>(node->lists.entries.size(), 1));

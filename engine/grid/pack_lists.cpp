@@ -1,41 +1,68 @@
 #include "engine/grid/pack_lists.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace firstray {
 namespace {
 
-/// Spreads the low 10 bits of x so that two zeros stand between them.
-std::uint32_t spread(std::uint32_t x)
-{
-    x = (x | (x << 16)) & 0x030000ffu;
-    x = (x | (x << 8)) & 0x0300f00fu;
-    x = (x | (x << 4)) & 0x030c30c3u;
-    return (x | (x << 2)) & 0x09249249u;
-}
+/// Places on a Morton curve through a voxel, `bits` an axis.
+class MortonCurve {
+public:
+    MortonCurve(const Aabb& voxel, int bits)
+        : lo_(voxel.lo),
+          scale_(static_cast<float>(1 << bits) / glm::max(voxel.size(), glm::vec3(1e-30f))),
+          last_(static_cast<float>((1 << bits) - 1))
+    {
+    }
+    std::uint32_t place(const glm::vec3& point) const
+    {
+        const glm::vec3 p = glm::clamp((point - lo_) * scale_, 0.0f, last_);
+        return spread(static_cast<std::uint32_t>(p.x)) | (spread(static_cast<std::uint32_t>(p.y)) << 1) |
+               (spread(static_cast<std::uint32_t>(p.z)) << 2);
+    }
 
-/// Position of a box's middle on a Morton curve through `within`, 10 bits an axis.
-std::uint32_t morton_key(const Aabb& box, const Aabb& within)
+private:
+    /// Spreads three bits so that two zeros stand between them.
+    static std::uint32_t spread(std::uint32_t x) { return (x & 1u) | (x & 2u) << 2 | (x & 4u) << 4; }
+
+    glm::vec3 lo_, scale_;
+    float last_;
+};
+
+/// Sorts by counting, which keeps the order of equal ones: a few triangles for each place on the curve are near enough
+/// to each other, and comparing takes longer.
+template <int bits>
+void sort_along_curve(std::span<std::uint32_t> entries_listed, const Aabb& voxel, const GridEntries& entries)
 {
-    const glm::vec3 size = glm::max(within.size(), glm::vec3(1e-30f));
-    const glm::vec3 place = glm::clamp(((box.lo + box.hi) * 0.5f - within.lo) / size, 0.0f, 1.0f) * 1023.0f;
-    return spread(static_cast<std::uint32_t>(place.x)) | (spread(static_cast<std::uint32_t>(place.y)) << 1) |
-           (spread(static_cast<std::uint32_t>(place.z)) << 2);
+    constexpr std::size_t places = std::size_t{1} << (3 * bits);
+    const MortonCurve curve(voxel, bits);
+    thread_local std::vector<std::uint16_t> place_of;
+    thread_local std::vector<std::uint32_t> unsorted;
+    place_of.resize(entries_listed.size());
+    unsorted.assign(entries_listed.begin(), entries_listed.end());
+    std::uint32_t first[places] = {};
+    for (std::size_t i = 0; i < unsorted.size(); ++i) {
+        const Aabb box = clipped(entries.boxes[unsorted[i]], voxel);
+        place_of[i] = static_cast<std::uint16_t>(curve.place((box.lo + box.hi) * 0.5f));
+        ++first[place_of[i]];
+    }
+    std::uint32_t sum = 0;
+    for (std::uint32_t& place : first) sum += std::exchange(place, sum);
+    for (std::size_t i = 0; i < unsorted.size(); ++i) entries_listed[first[place_of[i]]++] = unsorted[i];
 }
 
 /// The list's triangles, neighbours in space near each other, lists of at most one pack as they are.
-std::vector<std::uint32_t> in_clusters(const ListToFill& list, std::size_t triangles, const GridEntries& entries)
+std::span<const std::uint32_t> in_clusters(const ListToFill& list, std::size_t triangles, const GridEntries& entries)
 {
-    std::vector<std::uint32_t> order(list.entries.begin(),
-                                     list.entries.begin() + static_cast<std::ptrdiff_t>(triangles));
-    if (triangles <= pack_size) return order;
-    std::vector<std::uint64_t> keys(triangles);
-    for (std::size_t i = 0; i < triangles; ++i) {
-        const std::uint32_t key = morton_key(clipped(entries.boxes[order[i]], list.box), list.box);
-        keys[i] = (std::uint64_t{key} << 32) | order[i];
-    }
-    std::sort(keys.begin(), keys.end());
-    for (std::size_t i = 0; i < triangles; ++i) order[i] = static_cast<std::uint32_t>(keys[i]);
+    constexpr std::size_t few = 128;  // two triangles for each of 64 places
+    if (triangles <= pack_size) return list.entries.first(triangles);
+    thread_local std::vector<std::uint32_t> order;
+    order.assign(list.entries.begin(), list.entries.begin() + static_cast<std::ptrdiff_t>(triangles));
+    if (triangles <= few)
+        sort_along_curve<2>(order, list.box, entries);
+    else
+        sort_along_curve<3>(order, list.box, entries);
     return order;
 }
 
@@ -101,7 +128,7 @@ VoxelList reserve_list(std::span<const std::uint32_t> listed, const GridEntries&
 void fill_list(const VoxelList& list, const ListToFill& to_fill, const GridEntries& entries, GridStructure& structure)
 {
     const std::size_t triangles = count_triangles(to_fill.entries, entries);
-    const std::vector<std::uint32_t> order = in_clusters(to_fill, triangles, entries);
+    const std::span<const std::uint32_t> order = in_clusters(to_fill, triangles, entries);
     for (std::uint32_t p = 0; p < list.packs; ++p) {
         const std::size_t begin = p * std::size_t{pack_size}, end = std::min(begin + pack_size, triangles);
         const Aabb box = fill_pack(structure.packs[list.first_pack + p], {order.data() + begin, order.data() + end},

@@ -20,7 +20,8 @@ struct Exam {
     StrategyOptions options{.grid_density = 1.0f, .max_list = 8};
 
     explicit Exam(std::uint64_t seed, int movers = 4)
-        : scene(scene_with_movers(seed, 600, movers, 100)), rays(awkward_rays(seed, scene, 600))
+        : scene(scene_with_movers(seed, 600, movers, 100)),
+          rays(seed % 2 == 0 ? awkward_rays(seed, scene, 600) : rays_from(2 * seed, scene, {1, 2, 30}, 600))
     {
     }
     std::unique_ptr<RayTile<float>> truth(const Pose& now) const

@@ -27,7 +27,10 @@ void check_frames(const Scene& scene, std::span<const obb::Options> variants, Pr
     for (const int frame : {2, 4, 0, 8}) {
         CAPTURE(frame);
         const Pose now = pose(scene, scene.time_of(frame));
-        const std::vector<TestRay> aimed = awkward_rays(static_cast<std::uint64_t>(frame), targets_of(now), rays);
+        const auto seed = static_cast<std::uint64_t>(frame);
+        const Scene targets = targets_of(now);
+        const std::vector<TestRay> aimed = awkward_rays(seed, targets, rays),
+                                   fan = rays_from(seed / 2, targets, targets.positions[0] + glm::dvec3(3, 4, 5), rays);
         list->update(now);
         for (std::size_t i = 0; i < variants.size(); ++i) {
             CAPTURE(static_cast<int>(variants[i].groups));
@@ -35,6 +38,7 @@ void check_frames(const Scene& scene, std::span<const obb::Options> variants, Pr
             CAPTURE(static_cast<int>(variants[i].inside));
             strategies[i]->update(now);
             CHECK(differences(*list, *strategies[i], aimed, hits) == 0);
+            CHECK(differences(*list, *strategies[i], fan, hits) == 0);
         }
     }
 }

@@ -62,6 +62,30 @@ TEST_CASE("every strategy finds the hits that testing all primitives finds, bit 
     MESSAGE("hits compared: " << hits);
 }
 
+TEST_CASE("rays with a common apex find the hits that testing all primitives finds, wherever the apex is")
+{
+    int hits = 0;
+    std::uint64_t rays_sent = 0;
+    for (std::uint64_t seed = 1; seed <= 24; ++seed) {
+        CAPTURE(seed);
+        Random random(seed);
+        const glm::dvec3 offset(seed % 5 == 0 ? 3e4 : 0.0);
+        const Scene scene = random_scene(seed, seed % 3 == 0 ? 30 : 1200, offset);
+        const glm::dvec3 apexes[] = {offset, scene.positions[5], offset + random.in_cube(40.0),
+                                     offset + random.in_cube(1.0) * 1e6};
+        const int count = seed % 4 == 0 ? 37 : 1024;
+        for (const glm::dvec3& apex : apexes) {
+            CAPTURE(apex.x);
+            const std::vector<TestRay> rays = rays_from(seed + 100, scene, apex, count);
+            rays_sent += rays.size();
+            for (const Precision precision : {Precision::fast, Precision::robust})
+                check_agreement<float>(scene, rays, {.precision = precision, .max_list = seed % 2 == 0 ? 20 : 0}, hits);
+        }
+    }
+    CHECK(hits > 100000);
+    MESSAGE(rays_sent << " rays, hits compared: " << hits);
+}
+
 TEST_CASE("every shape of grid finds the same hits")
 {
     int hits = 0;
@@ -82,29 +106,31 @@ TEST_CASE("every shape of grid finds the same hits")
 TEST_CASE("every instruction set finds the same hits")
 {
     const Scene scene = random_scene(5, 1500);
-    const std::vector<TestRay> rays = awkward_rays(6, scene, 1024);
     const Pose now = pose(scene, 0.0);
-    std::unique_ptr<RayTile<float>> expected;
     REQUIRE(!instruction_sets().empty());
-    for (const std::string& set : instruction_sets()) {
-        CAPTURE(set);
-        use_instruction_set(set);
-        CHECK(instruction_set() == set);
-        for (const StrategyEntry& entry : strategies()) {
-            if (entry.peer) continue;
-            CAPTURE(entry.name);
-            const auto strategy = entry.make(scene, {});
-            strategy->update(now);
-            auto tile = make_tile<float>(rays, 0);
-            strategy->closest(*tile);
-            if (!expected) {
-                expected = std::move(tile);
-                continue;
+    for (const std::vector<TestRay>& rays :
+         {awkward_rays(6, scene, 1024), rays_from(6, scene, {30, 1, 2}, 1024), rays_from(7, scene, {0, 1, 2}, 1024)}) {
+        std::unique_ptr<RayTile<float>> expected;
+        for (const std::string& set : instruction_sets()) {
+            CAPTURE(set);
+            use_instruction_set(set);
+            CHECK(instruction_set() == set);
+            for (const StrategyEntry& entry : strategies()) {
+                if (entry.peer) continue;
+                CAPTURE(entry.name);
+                const auto strategy = entry.make(scene, {});
+                strategy->update(now);
+                auto tile = make_tile<float>(rays, 0);
+                strategy->closest(*tile);
+                if (!expected) {
+                    expected = std::move(tile);
+                    continue;
+                }
+                int different = 0;
+                for (std::size_t i = 0; i < rays.size(); ++i)
+                    different += tile->primitive[i] != expected->primitive[i] || tile->t_max[i] != expected->t_max[i];
+                CHECK(different == 0);
             }
-            int different = 0;
-            for (std::size_t i = 0; i < rays.size(); ++i)
-                different += tile->primitive[i] != expected->primitive[i] || tile->t_max[i] != expected->t_max[i];
-            CHECK(different == 0);
         }
     }
     use_instruction_set("");

@@ -109,6 +109,53 @@ inline std::vector<TestRay> awkward_rays(std::uint64_t seed, const Scene& scene,
     return rays;
 }
 
+/// Rays from one point: to corners and edges, along axes and close to them, in all directions or in a narrow cone.
+/// apex  rounded to float, so that the rays have it in common in every precision
+inline std::vector<TestRay> rays_from(std::uint64_t seed, const Scene& scene, const glm::dvec3& apex, int count)
+{
+    Random random(seed);
+    const auto corner = [&] {
+        return scene.positions[random.below(static_cast<std::uint32_t>(scene.positions.size()))];
+    };
+    const glm::dvec3 from(glm::vec3{apex}), to = corner();
+    const double narrow = 0.05 * glm::length(to - from);
+    const bool everywhere = seed % 2 == 0;
+    std::vector<TestRay> rays;
+    while (static_cast<int>(rays.size()) < count) {
+        const glm::dvec3 a = everywhere ? corner() : to + random.in_cube(narrow), b = everywhere ? corner() : a;
+        TestRay ray{from, a - from};
+        switch (rays.size() % 8) {
+            case 0:
+                ray.direction = (a + b) * 0.5 - from;
+                break;
+            case 1:
+                ray.t_max = 1.0;
+                break;
+            case 2:
+                ray.t_min = random.between(0.0, 1.0);
+                ray.t_max = ray.t_min + random.between(-0.1, 1.0);
+                break;
+            case 3:
+                ray.direction *= std::pow(10.0, random.between(-12.0, 12.0));
+                break;
+            case 4:
+                if (everywhere) ray.direction = glm::dvec3(0.0);
+                ray.direction[static_cast<int>(random.below(3))] = random.unit() < 0.5 ? 0.0 : -1.0;
+                break;
+            case 5:
+                if (random.unit() < 0.05) ray.direction.x = std::numeric_limits<double>::quiet_NaN();
+                if (random.unit() < 0.05) ray.direction.y = std::numeric_limits<double>::infinity();
+                if (random.unit() < 0.05) ray.t_min = -1.0;
+                break;
+            default:
+                break;
+        }
+        rays.push_back(ray);
+    }
+    return rays;
+}
+
+/// A tile of rays; it has a common apex where all of them have.
 template <typename Real>
 std::unique_ptr<RayTile<Real>> make_tile(const std::vector<TestRay>& rays, std::size_t first,
                                          RayMask mask = RayMask::all)
@@ -122,6 +169,10 @@ std::unique_ptr<RayTile<Real>> make_tile(const std::vector<TestRay>& rays, std::
         tile->set_interval(tile->count, static_cast<Real>(rays[i].t_min), static_cast<Real>(rays[i].t_max));
         ++tile->count;
     }
+    tile->apex = tile->count > 0 ? tile->origin_of(0) : tile->apex;
+    tile->common_apex = tile->count > 1;
+    for (int i = 1; i < tile->count; ++i)
+        tile->common_apex = tile->common_apex && rays[first + static_cast<std::size_t>(i)].origin == rays[first].origin;
     return tile;
 }
 
