@@ -11,7 +11,8 @@
 ///   The time to lay them out as Embree wants them, and to bring the hits back, is in the trace's. Other rays are
 ///   traced one by one, rtcIntersect1 and rtcOccluded1. Ray streams and filter callbacks are not used; a RayMask is
 ///   Embree's own ray mask, whose test is compiled in for all queries.
-/// - Shadow packets through instances (embree-two-level) go without that flag: with it Embree 3.13.5 loops for ever.
+/// - Shadow packets through instances (embree-two-level) go without that flag: with it Embree 3.13.5 does not return on
+///   some scenes. Why is not known.
 /// - Spheres, cones and cylinders are user geometry that the engine's own test intersects, in double, ray by ray.
 /// - Embree keeps to the instruction set that our kernels use when the strategy is made (engine/core/simd.h).
 /// - The precision robust sets RTC_SCENE_FLAG_ROBUST, fast does not. The sign of an edge is still decided in float, so

@@ -55,7 +55,8 @@ public:
                       [this](unsigned instance) -> const Body& { return *bodies_[instance]; });
     }
 
-    // Coherent packets of shadow rays do not come back from Embree 3.13.5 where there are instances: it loops for ever.
+    // Called coherent, packets of shadow rays through instances do not come back from Embree 3.13.5 on some scenes, the
+    // moving ones of the tests among them.
     void occluded(RayTile<float>& rays) const override
     {
         trace_occluded(top_.get(), packet_width_, rays, met_, RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT);
