@@ -58,6 +58,16 @@ std::unique_ptr<Strategy<Real>> make_lazy(const Scene& scene, const StrategyOpti
     return lazy::make_lazy<Real>(scene, options, lazy_options(options.own));
 }
 
+#ifdef FIRSTRAY_HAVE_EMBREE
+constexpr std::string_view embree_rays[] = {"packets", "single"};
+
+template <auto make>
+std::unique_ptr<Strategy<float>> make_peer(const Scene& scene, const StrategyOptions& options)
+{
+    return make(scene, options, peers::Options{static_cast<peers::Rays>(chosen(options.own, "embree-rays"))});
+}
+#endif
+
 }  // namespace
 
 std::span<const StrategyEntry> strategies()
@@ -70,9 +80,13 @@ std::span<const StrategyEntry> strategies()
         {"lazy", "a grid whose parts come into being when the first ray enters them", false, &make_lazy<float>,
          &make_lazy<double>},
 #ifdef FIRSTRAY_HAVE_EMBREE
-        {"embree", "Embree 3, one tree of medium quality, built anew every frame", true, &peers::make_embree_medium},
-        {"embree-low", "Embree 3, the tree that is quickest to build", true, &peers::make_embree_low},
-        {"embree-two-level", "Embree 3, a tree per group, moved as instances", true, &peers::make_embree_two_level},
+        {"embree", "Embree 3, one tree of medium quality, built anew every frame", true,
+         &make_peer<peers::make_embree_medium>},
+        {"embree-low", "Embree 3, the tree that is quickest to build", true, &make_peer<peers::make_embree_low>},
+        {"embree-refit", "Embree 3, one tree built once, whose boxes follow what moves", true,
+         &make_peer<peers::make_embree_refit>},
+        {"embree-two-level", "Embree 3, a tree per group, moved as instances", true,
+         &make_peer<peers::make_embree_two_level>},
 #endif
     };
     return table;
@@ -87,8 +101,17 @@ std::span<const OwnChoice> own_choices()
         {"obb-hits", obb_hits, "decide hits in the root system, or the box's (the paper)"},
         {"obb-inside", obb_inside, "what is in a box"},
         {"lazy-top", lazy_top, "list what moves by groups, or all of it (the paper)"},
+#ifdef FIRSTRAY_HAVE_EMBREE
+        {"embree-rays", embree_rays, "rays with a common apex in packets, or one by one"},
+#endif
     };
     return table;
+}
+
+bool offers(std::string_view strategy, const OwnChoice& choice)
+{
+    const auto family = [](std::string_view name) { return name.substr(0, name.find('-')); };
+    return family(strategy) == family(choice.flag);
 }
 
 const StrategyEntry* find_strategy(std::string_view name)

@@ -21,7 +21,7 @@ struct StrategyEntry {
 /// Every strategy that this build knows; the command, the tests and the benchmarks loop over this.
 std::span<const StrategyEntry> strategies();
 
-/// A choice that one strategy alone offers; StrategyOptions::own takes its flag and one of its words.
+/// A choice that one strategy alone offers, or a family of them; StrategyOptions::own takes its flag and one of its words.
 struct OwnChoice {
     std::string_view flag;                    ///< without dashes, e.g. "obb-top"
     std::span<const std::string_view> words;  ///< the first is the default
@@ -30,6 +30,10 @@ struct OwnChoice {
 
 /// All choices of all strategies.
 std::span<const OwnChoice> own_choices();
+
+/// Whether a strategy has this choice: names of strategies and flags begin with the family's, e.g. "embree-low" and
+/// "embree-rays".
+bool offers(std::string_view strategy, const OwnChoice& choice);
 
 /// The entry of that name, or null.
 const StrategyEntry* find_strategy(std::string_view name);

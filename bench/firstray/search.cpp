@@ -46,9 +46,9 @@ void check_search(const SearchChoice& choice)
     for (const OwnChoice& own : own_choices())
         if (const auto word = choice.own.find(own.flag); word != choice.own.end() && !word->second.empty()) {
             find_word("--" + word->first, word->second, own.words);
-            const std::string_view owner = own.flag.substr(0, own.flag.find('-'));
-            if (owner != entry.name)
-                throw UsageError(fmt::format("--{} is for --strategy {}, not {}", own.flag, owner, entry.name));
+            if (!offers(entry.name, own))
+                throw UsageError(fmt::format("--{} is for --strategy {}, not {}", own.flag,
+                                             own.flag.substr(0, own.flag.find('-')), entry.name));
         }
     if (choice.structure_budget > 0 && entry.name != "lazy")
         throw UsageError(fmt::format("--structure-budget is for --strategy lazy, not {}", entry.name));
@@ -60,7 +60,7 @@ Json own_choices_of(const SearchChoice& choice)
     for (const OwnChoice& own : own_choices()) {
         const auto word = choice.own.find(own.flag);
         const bool is_given = word != choice.own.end() && !word->second.empty();
-        if (own.flag.starts_with(choice.strategy + "-"))
+        if (offers(choice.strategy, own))
             chosen[std::string(own.flag)] = is_given ? word->second : std::string(own.words[0]);
     }
     return chosen;

@@ -1,6 +1,7 @@
 #include "bench/micro/measurement.h"
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <cmath>
 #include <limits>
@@ -27,12 +28,12 @@ void search(const Strategy<float>& strategy, Phase phase, RayTile<float>& tile)
         strategy.occluded(tile);
 }
 
-/// Calls visit(tile) for every batch of a phase.
-template <typename Visit>
-void for_batches(const FrameRays& rays, Phase phase, const Visit& visit)
+/// Calls visit(tile) for every batch of a phase that next() names, until that is past the last.
+template <typename Next, typename Visit>
+void for_batches(const FrameRays& rays, Phase phase, Next next, const Visit& visit)
 {
     const auto tile = std::make_unique<RayTile<float>>();
-    for (std::size_t batch = 0; batch < rays.batches(phase); ++batch) {
+    for (std::size_t batch = next(); batch < rays.batches(phase); batch = next()) {
         rays.load(phase, batch, *tile);
         visit(*tile);
     }
@@ -43,7 +44,8 @@ std::vector<float> answers(const Strategy<float>& strategy, const FrameRays& ray
 {
     std::vector<float> found;
     found.reserve(rays.count(phase));
-    for_batches(rays, phase, [&](RayTile<float>& tile) {
+    const auto in_order = [batch = std::size_t{0}]() mutable { return batch++; };
+    for_batches(rays, phase, in_order, [&](RayTile<float>& tile) {
         search(strategy, phase, tile);
         for (std::size_t i = 0; i < static_cast<std::size_t>(tile.count); ++i)
             found.push_back(tile.primitive[i] == no_primitive ? nothing
@@ -53,16 +55,24 @@ std::vector<float> answers(const Strategy<float>& strategy, const FrameRays& ray
     return found;
 }
 
-double seconds_to_search(const Strategy<float>& strategy, const FrameRays& rays, Phase phase)
+/// The seconds of the thread that searched longest. Making the rays does not count, so that no clock can run from the
+/// first batch to the last.
+double seconds_to_search(const Strategy<float>& strategy, const FrameRays& rays, Phase phase, const Executor& executor)
 {
     using Clock = std::chrono::steady_clock;
-    Clock::duration spent{};
-    for_batches(rays, phase, [&](RayTile<float>& tile) {
-        const Clock::time_point start = Clock::now();
-        search(strategy, phase, tile);
-        spent += Clock::now() - start;
+    std::vector<Clock::duration> spent(static_cast<std::size_t>(executor.threads()));
+    std::atomic<std::size_t> batch = 0;
+    executor.for_each(spent.size(), [&](std::size_t worker) {
+        Clock::duration sum{};
+        const auto next_free = [&] { return batch++; };
+        for_batches(rays, phase, next_free, [&](RayTile<float>& tile) {
+            const Clock::time_point start = Clock::now();
+            search(strategy, phase, tile);
+            sum += Clock::now() - start;
+        });
+        spent[worker] = sum;
     });
-    return std::chrono::duration<double>(spent).count();
+    return std::chrono::duration<double>(*std::max_element(spent.begin(), spent.end())).count();
 }
 
 double seconds_to_update(Strategy<float>& strategy, const Pose& pose)
@@ -121,21 +131,22 @@ void refuse_differing(std::vector<Contender>& contenders)
     }
 }
 
-void time_frame(Contender& contender, const FrameRays& rays, PhaseTimes& times)
+void time_frame(Contender& contender, const FrameRays& rays, const Executor& executor, PhaseTimes& times)
 {
     times.update = seconds_to_update(*contender.strategy, rays.pose());
-    times.primary = seconds_to_search(*contender.strategy, rays, Phase::primary);
-    times.shadow = seconds_to_search(*contender.strategy, rays, Phase::shadow);
+    times.primary = seconds_to_search(*contender.strategy, rays, Phase::primary, executor);
+    times.shadow = seconds_to_search(*contender.strategy, rays, Phase::shadow, executor);
 }
 
-void time_round(std::vector<Contender>& contenders, const std::vector<FrameRays>& frames, std::size_t round)
+void time_round(std::vector<Contender>& contenders, const std::vector<FrameRays>& frames, const Executor& executor,
+                std::size_t round)
 {
     for (Contender& contender : contenders) contender.result.rounds.emplace_back(frames.size());
     for (std::size_t frame = 0; frame < frames.size(); ++frame)
         for (std::size_t turn = 0; turn < contenders.size(); ++turn) {
             Contender& contender = contenders[(turn + round) % contenders.size()];  // nobody always follows the same
             attempt(contender.result,
-                    [&] { time_frame(contender, frames[frame], contender.result.rounds.back()[frame]); });
+                    [&] { time_frame(contender, frames[frame], executor, contender.result.rounds.back()[frame]); });
         }
 }
 
@@ -164,6 +175,7 @@ std::vector<Contender> make_contenders(const Scene& scene, const std::vector<Con
     results.resize(contestants.size());
     for (std::size_t i = 0; i < contestants.size(); ++i) {
         results[i].name = contestants[i].name;
+        results[i].is_peer = contestants[i].entry->peer;
         options.own = contestants[i].own;
         contenders.push_back({results[i], nullptr});
         attempt(results[i], [&] { contenders.back().strategy = contestants[i].entry->make(scene, options); });
@@ -175,7 +187,7 @@ std::vector<Contender> make_contenders(const Scene& scene, const std::vector<Con
 
 Measurement measure(const Scene& scene, const MeasurePlan& plan)
 {
-    const Executor executor(1);
+    const Executor executor(plan.threads);
     StrategyOptions options = plan.options;
     options.executor = &executor;
 
@@ -192,7 +204,8 @@ Measurement measure(const Scene& scene, const MeasurePlan& plan)
     reference.reset();
     refuse_differing(contenders);
 
-    for (int round = 0; round < plan.rounds; ++round) time_round(contenders, frames, static_cast<std::size_t>(round));
+    for (int round = 0; round < plan.rounds; ++round)
+        time_round(contenders, frames, executor, static_cast<std::size_t>(round));
     for (Contender& contender : contenders)
         attempt(contender.result, [&] { contender.result.structure = contender.strategy->report(); });
     return measurement;

@@ -21,13 +21,14 @@ struct MeasurePlan {
     int frames = 10;  ///< spread evenly from the first on: 0, n/10, 2n/10 ...
     int rounds = 5;   ///< how often all strategies go through all frames
     int width = 800, height = 592;
+    int threads = 1;                           ///< that update and trace, >= 1
     RayMask shadow_mask = RayMask::opaque;     ///< as the renderer asks; taken as `all` where nothing transmits
     StrategyOptions options;                   ///< of every strategy; the executor is the measurement's own
     const StrategyEntry* reference = nullptr;  ///< answers are checked against its; its hits make the shadow rays
     std::vector<Contestant> contestants;
 };
 
-/// Seconds on one thread.
+/// Seconds from beginning to end.
 struct PhaseTimes {
     double update = 0.0, primary = 0.0, shadow = 0.0;
 };
@@ -42,7 +43,8 @@ struct Agreement {
 /// What was learnt of one strategy.
 struct Measured {
     std::string name;
-    std::string fault;  ///< why it was not timed; empty where it was
+    bool is_peer = false;  ///< StrategyEntry::peer
+    std::string fault;     ///< why it was not timed; empty where it was
     Agreement agreement;
     StructureReport structure;                    ///< after the last frame's rays
     std::vector<std::vector<PhaseTimes>> rounds;  ///< [round][frame]
@@ -53,10 +55,11 @@ struct Measurement {
     std::uint64_t primary = 0, shadow = 0;  ///< rays of all frames
 };
 
-/// Checks every strategy's answers on all rays of all frames, then times update and rays on one thread. Strategies take
-/// turns frame by frame, so that a machine that speeds up or slows down does so for all; rounds follow the animation,
-/// so that an update always comes from another frame. A strategy that differs in more than 0.1 % of the rays, or throws
-/// Error, is not timed.
+/// Checks every strategy's answers on all rays of all frames, then times update and rays. Batches of rays are handed to
+/// the threads as these become free; a phase takes as long as the thread that searched longest. Strategies take turns
+/// frame by frame, so that a machine that speeds up or slows down does so for all; rounds follow the animation, so that
+/// an update always comes from another frame. A strategy that differs in more than 0.1 % of the rays, or throws Error,
+/// is not timed.
 /// throws Error when the reference does
 Measurement measure(const Scene& scene, const MeasurePlan& plan);
 

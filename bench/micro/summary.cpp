@@ -32,7 +32,7 @@ std::string format(const char* pattern, Values... values)
 
 void write_line(std::ostream& out, const Measured& base, const Measured& measured)
 {
-    out << format("  %-18s", measured.name.c_str());
+    out << format("  %-36s", measured.name.c_str());
     for (const ReportedPart& part : parts) {
         const Ratio ratio = ratio_to(base, measured, part);
         out << format(" %9.1f ms x%6.3f [%6.3f %6.3f]", 1e3 * typical_seconds(measured, part), ratio.median,
@@ -92,24 +92,34 @@ const Measured* timed(const Measurement& measurement, std::string_view name)
     return nullptr;
 }
 
-void write_table(std::ostream& out, std::string_view scene, const Measurement& measurement, std::string_view base)
+const Measured* best_peer(const Measurement& measurement)
 {
-    const Measured* base_measured = timed(measurement, base);
+    const ReportedPart& frame = parts[std::size(parts) - 1];
+    const Measured* best = nullptr;
+    for (const Measured& measured : measurement.strategies)
+        if (measured.is_peer && measured.fault.empty() &&
+            (!best || typical_seconds(measured, frame) < typical_seconds(*best, frame)))
+            best = &measured;
+    return best;
+}
+
+void write_table(std::ostream& out, std::string_view scene, const Measurement& measurement, const Measured* base)
+{
     out << "\n" << scene << ": milliseconds (medians over the rounds, summed over the frames)";
-    if (!base_measured) {
-        out << "; no ratios, since " << base << " was not timed\n";
+    if (!base) {
+        out << "; no ratios, since what they are to was not timed\n";
         return;
     }
-    out << format(", %zu rounds, %.1f M primary and %.1f M shadow rays\n", base_measured->rounds.size(),
+    out << format(", %zu rounds, %.1f M primary and %.1f M shadow rays\n", base->rounds.size(),
                   1e-6 * static_cast<double>(measurement.primary), 1e-6 * static_cast<double>(measurement.shadow));
-    out << "  x update: this / " << base << "; x otherwise: " << base << " / this, so above 1 is faster; "
+    out << "  x update: this / " << base->name << "; x otherwise: " << base->name << " / this, so above 1 is faster; "
         << "median [least most] of the rounds; differ: rays per million unlike the reference\n";
-    out << format("  %-18s", "strategy");
+    out << format("  %-36s", "strategy");
     for (const ReportedPart& part : parts) out << format(" %35s", std::string(part.name).c_str());
     out << format(" %9s\n", "differ");
     for (const Measured& measured : measurement.strategies)
         if (measured.fault.empty())
-            write_line(out, *base_measured, measured);
+            write_line(out, *base, measured);
         else
             out << "  " << measured.name << ": not timed: " << measured.fault << "\n";
 }

@@ -32,10 +32,14 @@ Ratio ratio_to(const Measured& base, const Measured& measured, const ReportedPar
 /// Rays that a part traces in all frames; none for update and frame.
 std::uint64_t rays_of(const Measurement& measurement, const ReportedPart& part);
 
+/// The peer whose frames took least, by typical_seconds(), among those that were timed; null where none was.
+const Measured* best_peer(const Measurement& measurement);
+
 /// The entry of that name if it was timed, else null.
 const Measured* timed(const Measurement& measurement, std::string_view name);
 
 /// Writes a table of ratios: a line per strategy, with spread, number of rounds and share of differing rays.
-void write_table(std::ostream& out, std::string_view scene, const Measurement& measurement, std::string_view base);
+/// base  whom to compare with; null where it was not timed
+void write_table(std::ostream& out, std::string_view scene, const Measurement& measurement, const Measured* base);
 
 }  // namespace firstray

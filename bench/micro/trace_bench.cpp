@@ -1,6 +1,6 @@
-// How fast does each strategy update and trace, next to Embree, on one thread? Replays the primary and shadow rays of
-// frames spread over BART's animations through every strategy, checks the answers first, and reports ratios within
-// this one run. Every benchmark line shows the rounds of the scene's measurement: nothing is measured twice.
+// How fast does each strategy update and trace, next to Embree? Replays the primary and shadow rays of frames spread
+// over BART's animations through every strategy, checks the answers first, and reports ratios within this one run.
+// Every benchmark line shows the rounds of the scene's measurement: nothing is measured twice.
 #include <benchmark/benchmark.h>
 
 #include <charconv>
@@ -12,18 +12,26 @@
 #include "bench/micro/summary.h"
 #include "engine/aff/reader.h"
 #include "engine/core/errors.h"
+#include "engine/core/simd.h"
 
 namespace firstray {
 namespace {
 
 constexpr const char* usage =
-    "trace_bench [--scene=FILE]... [--strategies=a,b] [--base=embree] [--reference=NAME] [--rounds=5] [--frames=10]\n"
-    "            [--size=800x592] [--precision=robust|fast] [--shadow-mask=opaque|all]\n"
+    "trace_bench [--scene=FILE]... [--strategies=a,b] [--base=embree|best] [--reference=NAME] [--rounds=5]\n"
+    "            [--frames=10] [--size=800x592] [--threads=1] [--isa=NAME] [--precision=robust|fast]\n"
+    "            [--shadow-mask=opaque|all]\n"
     "            [--grid-density=0.1] [--max-list=256] [--grid-depth=3] [Google Benchmark's own flags]\n"
-    "A strategy may carry choices of its own: --strategies=grid,obb,obb+obb-top=list.\n"
+    "A strategy may carry choices of its own: --strategies=grid,obb,obb+obb-top=list,embree+embree-rays=single.\n"
+    "The base is what ratios are to: a strategy, written as among --strategies; or best, which of Embree's ways is "
+    "the\n"
+    "one whose frames, update and trace, take least in this run on this scene.\n"
+    "The instruction set, e.g. AVX3, AVX2 or SSE4, holds for all, Embree too; without it, the best there is.\n"
     "Default scenes: BART's, found in the folder that FIRSTRAY_BART_DIR names. Default strategies: all but `list`.\n"
     "Shadow rays look at opaque primitives alone, as the renderer's do, or with --shadow-mask=all at all.\n"
     "The reference, whose answers the others must give, is by default the first strategy of our own.\n";
+
+constexpr std::string_view best = "best";
 
 struct NamedScene {
     std::string name;
@@ -97,6 +105,17 @@ T choice(std::string_view flag, std::string_view value, std::pair<std::string_vi
     refuse(std::string(flag) + " takes " + std::string(a.first) + " or " + std::string(b.first));
 }
 
+/// Holds our kernels to an instruction set, and Embree with them.
+void hold_to(std::string_view name)
+{
+    std::string known;
+    for (const std::string& set : instruction_sets()) {
+        if (set == name) return use_instruction_set(name);
+        known += " " + set;
+    }
+    refuse("--isa takes one of" + known);
+}
+
 /// returns  whether the flag is one of ours
 bool apply(std::string_view flag, std::string_view value, Settings& settings)
 {
@@ -104,7 +123,7 @@ bool apply(std::string_view flag, std::string_view value, Settings& settings)
     if (flag == "--scene")
         settings.scenes.push_back({std::filesystem::path(value).stem().string(), value});
     else if (flag == "--base")
-        settings.base = entry_of(value)->name;
+        settings.base = value == best ? value : contestant_of(value).name;
     else if (flag == "--reference")
         plan.reference = entry_of(value);
     else if (flag == "--rounds")
@@ -113,6 +132,10 @@ bool apply(std::string_view flag, std::string_view value, Settings& settings)
         plan.frames = whole_number(flag, value);
     else if (flag == "--size")
         apply_size(value, plan);
+    else if (flag == "--threads")
+        plan.threads = whole_number(flag, value);
+    else if (flag == "--isa")
+        hold_to(value);
     else if (flag == "--precision")
         plan.options.precision =
             choice<Precision>(flag, value, {"robust", Precision::robust}, {"fast", Precision::fast});
@@ -207,16 +230,24 @@ public:
 
     void write_table_if_measured(std::ostream& out) const
     {
-        if (measurement_) write_table(out, scene_.name, *measurement_, settings_.base);
+        if (!measurement_) return;
+        write_table(out, scene_.name, *measurement_, base());
+        if (settings_.base == best && base()) out << "  the best that is not ours: " << base()->name << "\n";
     }
 
 private:
+    /// Whom the scene's ratios are to, or null. Asked for once it is measured.
+    const Measured* base() const
+    {
+        return settings_.base == best ? best_peer(*measurement_) : timed(*measurement_, settings_.base);
+    }
+
     void show_counters(benchmark::State& state, const Measured& measured, const ReportedPart& part) const
     {
         if (const std::uint64_t rays = rays_of(*measurement_, part))
             state.counters["Mrays/s"] = 1e-6 * static_cast<double>(rays) / typical_seconds(measured, part);
-        if (const Measured* base = timed(*measurement_, settings_.base)) {
-            const Ratio ratio = ratio_to(*base, measured, part);
+        if (const Measured* to = base()) {
+            const Ratio ratio = ratio_to(*to, measured, part);
             state.counters["ratio"] = ratio.median;
             state.counters["ratio_least"] = ratio.least;
             state.counters["ratio_most"] = ratio.most;
@@ -246,7 +277,8 @@ void register_benchmarks(SceneRun& run, const MeasurePlan& plan)
 void describe(const Settings& settings)
 {
     const MeasurePlan& plan = settings.plan;
-    benchmark::AddCustomContext("threads", "1");
+    benchmark::AddCustomContext("threads", std::to_string(plan.threads));
+    benchmark::AddCustomContext("instruction_set", instruction_set());
     benchmark::AddCustomContext("frames", std::to_string(plan.frames));
     benchmark::AddCustomContext("rounds", std::to_string(plan.rounds));
     benchmark::AddCustomContext("picture", std::to_string(plan.width) + "x" + std::to_string(plan.height));

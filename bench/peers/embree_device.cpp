@@ -1,8 +1,11 @@
 #include "bench/peers/embree_device.h"
 
 #include <string>
+#include <utility>
 
+#include "bench/peers/embree.h"
 #include "engine/core/errors.h"
+#include "engine/core/simd.h"
 
 #ifdef __SSE__
 #include <xmmintrin.h>
@@ -19,6 +22,16 @@ void check(RTCDevice device, const char* doing)
     throw Error(Fault::rendering, std::string("Embree: ") + doing + " failed with RTCError " + std::to_string(code));
 }
 
+/// Embree's word for the instruction set that our kernels use. It has none between ours and the next lower one of its
+/// own.
+std::string isa_in_use()
+{
+    const std::string ours = instruction_set();
+    if (ours.starts_with("AVX3")) return "avx512";
+    if (ours == "AVX2") return "avx2";
+    return ours == "SSE4" ? "sse4.2" : "sse2";
+}
+
 }  // namespace
 
 BuildChoice with_precision(BuildChoice choice, Precision precision)
@@ -30,7 +43,7 @@ BuildChoice with_precision(BuildChoice choice, Precision precision)
 Device::Device(const Executor* executor)
 {
     const int threads = executor ? executor->threads() : 1;
-    device_ = rtcNewDevice(("threads=" + std::to_string(threads)).c_str());
+    device_ = rtcNewDevice(("threads=" + std::to_string(threads) + ",isa=" + isa_in_use()).c_str());
     if (!device_) check(nullptr, "making a device");
     if (!rtcGetDeviceProperty(device_, RTC_DEVICE_PROPERTY_RAY_MASK_SUPPORTED)) {
         rtcReleaseDevice(device_);
@@ -53,7 +66,10 @@ SceneHandle Device::new_scene(const BuildChoice& choice) const
 {
     SceneHandle scene(rtcNewScene(device_));
     check(device_, "making a scene");
-    rtcSetSceneBuildQuality(scene.get(), choice.quality);
+    // A scene of medium quality is always built anew; in one of low quality each geometry has a tree of its own
+    // quality.
+    const bool refits = choice.quality == RTC_BUILD_QUALITY_REFIT;
+    rtcSetSceneBuildQuality(scene.get(), refits ? RTC_BUILD_QUALITY_LOW : choice.quality);
     rtcSetSceneFlags(scene.get(), choice.flags);
     return scene;
 }
@@ -70,6 +86,21 @@ void Device::commit(RTCScene scene) const
 {
     rtcCommitScene(scene);
     check(device_, "building a scene");
+}
+
+int Device::packet_width() const
+{
+    constexpr std::pair<RTCDeviceProperty, int> widths[] = {{RTC_DEVICE_PROPERTY_NATIVE_RAY16_SUPPORTED, 16},
+                                                            {RTC_DEVICE_PROPERTY_NATIVE_RAY8_SUPPORTED, 8},
+                                                            {RTC_DEVICE_PROPERTY_NATIVE_RAY4_SUPPORTED, 4}};
+    for (const auto& [property, width] : widths)
+        if (rtcGetDeviceProperty(device_, property)) return width;
+    return 1;
+}
+
+int embree_packet_width()
+{
+    return Device(nullptr).packet_width();
 }
 
 #ifdef __SSE__

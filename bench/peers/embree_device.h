@@ -21,6 +21,8 @@ using GeometryHandle = std::unique_ptr<std::remove_pointer_t<RTCGeometry>, Relea
 
 /// How a scene is built.
 struct BuildChoice {
+    /// With RTC_BUILD_QUALITY_REFIT a geometry's first tree is of medium quality, and follows its primitives from then
+    /// on.
     RTCBuildQuality quality = RTC_BUILD_QUALITY_MEDIUM;
     RTCSceneFlags flags = RTC_SCENE_FLAG_NONE;
 };
@@ -28,7 +30,8 @@ struct BuildChoice {
 /// The same with RTC_SCENE_FLAG_ROBUST, unless the precision is fast.
 BuildChoice with_precision(BuildChoice choice, Precision precision);
 
-/// An Embree device that counts the bytes it allocates. Outlives every scene and geometry made from it.
+/// An Embree device that counts the bytes it allocates. Outlives every scene and geometry made from it. Held to what
+/// our own kernels are held to, see engine/core/simd.h: the instruction set in use when it is made.
 class Device {
 public:
     /// executor  whose number of threads builds; null: one thread
@@ -43,6 +46,9 @@ public:
     /// Builds what changed.
     /// throws Error when Embree reports a fault since the last call
     void commit(RTCScene scene) const;
+
+    /// Rays that are traced at once without being cut into smaller packets: 16, 8 or 4; 1 where there are no packets.
+    int packet_width() const;
 
     std::uint64_t bytes() const { return static_cast<std::uint64_t>(bytes_.load()); }
     std::uint64_t peak_bytes() const { return static_cast<std::uint64_t>(peak_.load()); }

@@ -1,16 +1,16 @@
-#include "bench/peers/embree.h"
 #include "bench/peers/embree_trace.h"
 
 namespace firstray::peers {
 namespace {
 
-/// One body over everything visible, in the root system, built anew every frame.
+/// One body over everything visible, in the root system, built anew or refitted every frame.
 class Flat final : public Strategy<float> {
 public:
-    Flat(const Scene& scene, const StrategyOptions& options, const BuildChoice& choice)
+    Flat(const Scene& scene, const StrategyOptions& options, Options own, const BuildChoice& choice)
         : scene_(scene),
           executor_(options.executor),
           device_(options.executor),
+          packet_width_(packet_width(device_, own)),
           body_(device_, with_precision(choice, options.precision))
     {
     }
@@ -29,10 +29,10 @@ public:
 
     void closest(RayTile<float>& rays) const override
     {
-        trace_closest(body_.scene(), rays, [this](unsigned) -> const Body& { return body_; });
+        trace_closest(body_.scene(), packet_width_, rays, [this](unsigned) -> const Body& { return body_; });
     }
 
-    void occluded(RayTile<float>& rays) const override { trace_occluded(body_.scene(), rays, met_); }
+    void occluded(RayTile<float>& rays) const override { trace_occluded(body_.scene(), packet_width_, rays, met_); }
 
     StructureReport report() const override
     {
@@ -75,6 +75,7 @@ private:
     const Scene& scene_;
     const Executor* executor_;
     Device device_;
+    int packet_width_;
     Body body_;
     std::vector<std::uint32_t> shown_;  // groups in body_, ascending
     PrimitiveId met_ = no_primitive;
@@ -82,14 +83,19 @@ private:
 
 }  // namespace
 
-std::unique_ptr<Strategy<float>> make_embree_medium(const Scene& scene, const StrategyOptions& options)
+std::unique_ptr<Strategy<float>> make_embree_medium(const Scene& scene, const StrategyOptions& options, Options own)
 {
-    return std::make_unique<Flat>(scene, options, BuildChoice{RTC_BUILD_QUALITY_MEDIUM, RTC_SCENE_FLAG_NONE});
+    return std::make_unique<Flat>(scene, options, own, BuildChoice{RTC_BUILD_QUALITY_MEDIUM, RTC_SCENE_FLAG_NONE});
 }
 
-std::unique_ptr<Strategy<float>> make_embree_low(const Scene& scene, const StrategyOptions& options)
+std::unique_ptr<Strategy<float>> make_embree_low(const Scene& scene, const StrategyOptions& options, Options own)
 {
-    return std::make_unique<Flat>(scene, options, BuildChoice{RTC_BUILD_QUALITY_LOW, RTC_SCENE_FLAG_DYNAMIC});
+    return std::make_unique<Flat>(scene, options, own, BuildChoice{RTC_BUILD_QUALITY_LOW, RTC_SCENE_FLAG_DYNAMIC});
+}
+
+std::unique_ptr<Strategy<float>> make_embree_refit(const Scene& scene, const StrategyOptions& options, Options own)
+{
+    return std::make_unique<Flat>(scene, options, own, BuildChoice{RTC_BUILD_QUALITY_REFIT, RTC_SCENE_FLAG_DYNAMIC});
 }
 
 }  // namespace firstray::peers

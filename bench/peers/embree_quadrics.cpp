@@ -8,37 +8,41 @@ namespace {
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
-/// The nearest t in (tnear, tfar] along the one ray that Embree hands over (peers trace single rays), or infinity.
-float nearest(void* user, unsigned index, RTCRayN* ray)
+/// The nearest t in (tnear, tfar] along ray i of the n that Embree hands over, or infinity.
+float nearest(void* user, unsigned index, RTCRayN* rays, unsigned n, unsigned i)
 {
     const RootQuadric& quadric = static_cast<const RootQuadric*>(user)[index];
-    const glm::dvec3 origin(RTCRayN_org_x(ray, 1, 0), RTCRayN_org_y(ray, 1, 0), RTCRayN_org_z(ray, 1, 0));
-    const glm::dvec3 direction(RTCRayN_dir_x(ray, 1, 0), RTCRayN_dir_y(ray, 1, 0), RTCRayN_dir_z(ray, 1, 0));
+    const glm::dvec3 origin(RTCRayN_org_x(rays, n, i), RTCRayN_org_y(rays, n, i), RTCRayN_org_z(rays, n, i));
+    const glm::dvec3 direction(RTCRayN_dir_x(rays, n, i), RTCRayN_dir_y(rays, n, i), RTCRayN_dir_z(rays, n, i));
     const auto t = static_cast<float>(firstray::intersect(quadric, origin, direction,
-                                                          static_cast<double>(RTCRayN_tnear(ray, 1, 0)),
+                                                          static_cast<double>(RTCRayN_tnear(rays, n, i)),
                                                           std::numeric_limits<double>::infinity()));
-    return t <= RTCRayN_tfar(ray, 1, 0) ? t : infinity;
+    return t <= RTCRayN_tfar(rays, n, i) ? t : infinity;
 }
 
 void intersect(const RTCIntersectFunctionNArguments* args)
 {
-    if (!args->valid[0]) return;
-    RTCRayN* ray = RTCRayHitN_RayN(args->rayhit, 1);
-    const float t = nearest(args->geometryUserPtr, args->primID, ray);
-    if (t == infinity) return;
-    RTCHitN* hit = RTCRayHitN_HitN(args->rayhit, 1);
-    RTCRayN_tfar(ray, 1, 0) = t;
-    RTCHitN_u(hit, 1, 0) = RTCHitN_v(hit, 1, 0) = 0.0f;
-    RTCHitN_primID(hit, 1, 0) = args->primID;
-    RTCHitN_geomID(hit, 1, 0) = args->geomID;
-    RTCHitN_instID(hit, 1, 0, 0) = args->context->instID[0];
+    const unsigned n = args->N;
+    RTCRayN* rays = RTCRayHitN_RayN(args->rayhit, n);
+    RTCHitN* hits = RTCRayHitN_HitN(args->rayhit, n);
+    for (unsigned i = 0; i < n; ++i) {
+        if (!args->valid[i]) continue;
+        const float t = nearest(args->geometryUserPtr, args->primID, rays, n, i);
+        if (t == infinity) continue;
+        RTCRayN_tfar(rays, n, i) = t;
+        RTCHitN_u(hits, n, i) = RTCHitN_v(hits, n, i) = 0.0f;
+        RTCHitN_primID(hits, n, i) = args->primID;
+        RTCHitN_geomID(hits, n, i) = args->geomID;
+        RTCHitN_instID(hits, n, i, 0) = args->context->instID[0];
+    }
 }
 
 void occluded(const RTCOccludedFunctionNArguments* args)
 {
-    if (!args->valid[0]) return;
-    if (nearest(args->geometryUserPtr, args->primID, args->ray) < infinity)
-        RTCRayN_tfar(args->ray, 1, 0) = -infinity;  // Embree's sign that something was met
+    const unsigned n = args->N;
+    for (unsigned i = 0; i < n; ++i)
+        if (args->valid[i] && nearest(args->geometryUserPtr, args->primID, args->ray, n, i) < infinity)
+            RTCRayN_tfar(args->ray, n, i) = -infinity;  // Embree's sign that something was met
 }
 
 void bounds(const RTCBoundsFunctionArguments* args)

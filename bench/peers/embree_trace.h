@@ -1,100 +1,107 @@
 #pragma once
-#include <bit>
-#include <cstdint>
-#include <limits>
-
-#include "bench/peers/embree_body.h"
-#include "engine/core/ray_tile.h"
+#include "bench/peers/embree.h"
+#include "bench/peers/embree_packets.h"
 
 namespace firstray::peers {
 
-/// The mask under which Embree tests what a RayMask admits.
-inline unsigned mask_bits(RayMask mask)
-{
-    if (mask == RayMask::all) return all_bits;
-    return mask == RayMask::opaque ? opaque_bit : transmitting_bit;
-}
-
-/// Whether a ray can meet anything: Embree's answer is undefined for rays that are not finite.
-inline bool is_searchable(const glm::vec3& origin, const glm::vec3& direction, float t_min, float t_max)
-{
-    const glm::vec3 not_finite = (origin - origin) + (direction - direction);  // infinity - infinity is NaN
-    return not_finite == glm::vec3(0.0f) && direction != glm::vec3(0.0f) && t_min < t_max && t_max > 0.0f;
-}
-
-/// The closed interval of floats inside the open (t_min, t_max), t_max > 0; Embree wants it to begin at 0 or later.
-/// A renderer that goes on behind a hit counts on it: a hit at t_min, found again, would be found for ever.
-inline void set_interval(RTCRay& ray, float t_min, float t_max)
-{
-    const auto neighbour = [](float t, int step) {  // of a positive float, in order of size
-        return std::bit_cast<float>(std::bit_cast<std::int32_t>(t) + step);
-    };
-    ray.tnear = t_min > 0.0f ? neighbour(t_min, +1) : std::numeric_limits<float>::min();
-    ray.tfar = neighbour(t_max, -1);
-}
-
-/// Loads lane i.
-/// returns  false where the lane meets nothing, whatever the scene
-inline bool load(const RayTile<float>& rays, int i, unsigned mask, RTCRay& ray)
+/// Loads ray i.
+/// returns  false where it meets nothing, whatever the scene
+inline bool load(const RayTile<float>& tile, int i, RTCRay& ray)
 {
     const auto lane = static_cast<std::size_t>(i);
-    const glm::vec3 origin = rays.origin_of(i), direction = rays.direction_of(i);
-    if (!is_searchable(origin, direction, rays.t_min[lane], rays.t_max[lane])) return false;
+    const glm::vec3 origin = tile.origin_of(i), direction = tile.direction_of(i);
+    if (!is_finite(origin) || !is_searchable(direction, tile.t_min[lane], tile.t_max[lane])) return false;
+    const ClosedInterval interval = inside(tile.t_min[lane], tile.t_max[lane]);
     ray.org_x = origin.x, ray.org_y = origin.y, ray.org_z = origin.z;
     ray.dir_x = direction.x, ray.dir_y = direction.y, ray.dir_z = direction.z;
-    set_interval(ray, rays.t_min[lane], rays.t_max[lane]);
+    ray.tnear = interval.begin, ray.tfar = interval.end;
     ray.time = 0.0f;
-    ray.mask = mask;
+    ray.mask = mask_bits(tile.mask);
     ray.id = ray.flags = 0;
     return true;
 }
 
-inline RTCIntersectContext context_for(const RayTile<float>& rays)
-{
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    context.flags = rays.common_apex ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
-    return context;
-}
-
-/// Strategy::closest by rtcIntersect1.
-/// body_of  a callable from the hit's instance id (RTC_INVALID_GEOMETRY_ID where there are no instances) to the Body
 template <typename BodyOf>
-void trace_closest(RTCScene scene, RayTile<float>& rays, const BodyOf& body_of)
+void closest_one_by_one(RTCScene scene, RayTile<float>& tile, const BodyOf& body_of)
 {
-    const FlushSubnormals flush;
-    const unsigned mask = mask_bits(rays.mask);
-    RTCIntersectContext context = context_for(rays);
-    for (int i = 0; i < rays.count; ++i) {
+    RTCIntersectContext context = context_with(RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT);
+    for (int i = 0; i < tile.count; ++i) {
         const auto lane = static_cast<std::size_t>(i);
-        rays.primitive[lane] = no_primitive;
+        tile.primitive[lane] = no_primitive;
         RTCRayHit query;
-        if (!load(rays, i, mask, query.ray)) continue;
+        if (!load(tile, i, query.ray)) continue;
         query.hit.geomID = query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
         rtcIntersect1(scene, &context, &query);
         if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) continue;
-        rays.t_max[lane] = query.ray.tfar;
-        rays.u[lane] = query.hit.u;
-        rays.v[lane] = query.hit.v;
-        rays.primitive[lane] = body_of(query.hit.instID[0]).primitive(query.hit.geomID, query.hit.primID);
+        tile.t_max[lane] = query.ray.tfar;
+        tile.u[lane] = query.hit.u;
+        tile.v[lane] = query.hit.v;
+        tile.primitive[lane] = body_of(query.hit.instID[0]).primitive(query.hit.geomID, query.hit.primID);
     }
 }
 
-/// Strategy::occluded by rtcOccluded1.
-/// met  what is named as the primitive of rays that meet something
-inline void trace_occluded(RTCScene scene, RayTile<float>& rays, PrimitiveId met)
+inline void occluded_one_by_one(RTCScene scene, RayTile<float>& tile, PrimitiveId met)
 {
-    const FlushSubnormals flush;
-    const unsigned mask = mask_bits(rays.mask);
-    RTCIntersectContext context = context_for(rays);
-    for (int i = 0; i < rays.count; ++i) {
+    RTCIntersectContext context = context_with(RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT);
+    for (int i = 0; i < tile.count; ++i) {
         RTCRay ray;
         bool is_met = false;
-        if (load(rays, i, mask, ray)) {
+        if (load(tile, i, ray)) {
             rtcOccluded1(scene, &context, &ray);
             is_met = ray.tfar < 0.0f;  // minus infinity where something was met
         }
-        rays.primitive[static_cast<std::size_t>(i)] = is_met ? met : no_primitive;
+        tile.primitive[static_cast<std::size_t>(i)] = is_met ? met : no_primitive;
+    }
+}
+
+/// Rays that a strategy traces at once where they have a common apex.
+inline int packet_width(const Device& device, const Options& options)
+{
+    return options.rays == Rays::packets ? device.packet_width() : 1;
+}
+
+/// Rays of this tile to trace at once: packets are for a common apex, which must be finite.
+inline int packet_width(const RayTile<float>& tile, int widest)
+{
+    return tile.common_apex && is_finite(tile.apex) ? widest : 1;
+}
+
+/// Strategy::closest.
+/// widest   rays to trace at once where they have a common apex: 1, 4, 8 or 16
+/// body_of  a callable from the hit's instance id (RTC_INVALID_GEOMETRY_ID where there are no instances) to the Body
+template <typename BodyOf>
+void trace_closest(RTCScene scene, int widest, RayTile<float>& tile, const BodyOf& body_of)
+{
+    const FlushSubnormals flush;
+    switch (packet_width(tile, widest)) {
+        case 16:
+            return closest_in_packets<16>(scene, tile, body_of);
+        case 8:
+            return closest_in_packets<8>(scene, tile, body_of);
+        case 4:
+            return closest_in_packets<4>(scene, tile, body_of);
+        default:
+            return closest_one_by_one(scene, tile, body_of);
+    }
+}
+
+/// Strategy::occluded.
+/// widest  as of trace_closest
+/// met     what is named as the primitive of rays that meet something
+/// flags   of packets
+inline void trace_occluded(RTCScene scene, int widest, RayTile<float>& tile, PrimitiveId met,
+                           RTCIntersectContextFlags flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT)
+{
+    const FlushSubnormals flush;
+    switch (packet_width(tile, widest)) {
+        case 16:
+            return occluded_in_packets<16>(scene, tile, met, flags);
+        case 8:
+            return occluded_in_packets<8>(scene, tile, met, flags);
+        case 4:
+            return occluded_in_packets<4>(scene, tile, met, flags);
+        default:
+            return occluded_one_by_one(scene, tile, met);
     }
 }
 

@@ -56,6 +56,11 @@ TEST_CASE("a command line that cannot be taken is told in one line and exits wit
         {"trace a.aff --frame 0 --rays r.csv --obb-hits world", "--obb-hits: 'world', expected root or local"},
         {"info a.aff --structure --obb-inside auot", "expected auto, grid, list or lazy; did you mean auto?"},
         {"render a.aff --obb-top list", "--obb-top is for --strategy obb, not grid"},
+#ifdef FIRSTRAY_HAVE_EMBREE
+        {"render a.aff --embree-rays single", "--embree-rays is for --strategy embree, not grid"},
+        {"render a.aff --strategy embree-low --obb-top list", "--obb-top is for --strategy obb, not embree-low"},
+        {"render a.aff --strategy embree-low --embree-rays one", "expected packets or single"},
+#endif
         {"render a.aff --strategy obb --structure-budget 9", "--structure-budget is for --strategy lazy, not obb"},
         {"info a.aff --obb-top list", "--obb-top requires --structure"},
         {"trace a.aff --rays r.csv", "needs --frame"},
