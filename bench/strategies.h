@@ -23,9 +23,13 @@ std::span<const StrategyEntry> strategies();
 
 /// A choice that one strategy alone offers; StrategyOptions::own takes its flag and one of its words.
 struct OwnChoice {
+    std::string_view strategy;
     std::string_view flag;                    ///< without dashes, e.g. "obb-top"
     std::span<const std::string_view> words;  ///< the first is the default
     std::string_view summary;                 ///< for --help
+    /// Where words are patterns, e.g. "threshold=N": refuses what fits none with std::invalid_argument. Null: the words
+    /// are all there is.
+    void (*check)(const std::string& word) = nullptr;
 };
 
 /// All choices of all strategies.

@@ -1,0 +1,59 @@
+#pragma once
+#include <memory>
+#include <span>
+
+#include "engine/core/made_once.h"
+#include "engine/grid/boxed_grid.h"
+#include "engine/grid/build.h"
+#include "engine/strategy/root_geometry.h"
+#include "lazy/lazy_grid.h"
+
+namespace firstray::lazy {
+
+/// What does not move: a lazy grid, or not even that where a chooser thinks that lists will do.
+template <typename Real>
+class Scenery {
+public:
+    struct Made {
+        LazyGrid grid;
+        BoxedGrid around;  ///< its top grid, with boxes of groups in it
+    };
+
+    /// bounds   group_bounds(scene)
+    /// chooser  null: the grid is made by the first update
+    /// All but options must outlive this.
+    Scenery(const Scene& scene, const RootGeometry<Real>& geometry, std::span<const DAabb> bounds,
+            const GridOptions& options, Ledger& ledger, Chooser* chooser);
+
+    /// Makes what is to be there before rays fly; returns how many primitives were put into a grid. Runs alone.
+    std::uint64_t update(const Executor* executor);
+
+    /// The grid, or null: there is none, or none yet.
+    const Made* made() const { return made_.get(); }
+    Made* made_alone() { return made_.get_alone(); }
+
+    /// The same for rays that are about to search it together, who may have it made. Null where anything stands: they
+    /// are to be tested against listed(). Any number of threads.
+    const Made* enter(std::uint64_t rays) const;
+    /// Largest coordinate of the grid; 0 without one.
+    float largest() const { return made() ? made()->around.structure.largest : 0.0f; }
+    std::uint64_t bytes() const { return made() ? made()->grid.bytes() + made()->around.bytes() : 0; }
+    bool is_empty() const { return primitives_ == 0; }
+    const PrimitiveList& listed() const { return listed_; }
+
+private:
+    std::unique_ptr<Made> make(const Executor* executor) const;
+    std::unique_ptr<Made> make_for_rays() const;
+
+    const Scene& scene_;
+    const RootGeometry<Real>& geometry_;
+    std::span<const DAabb> bounds_;
+    GridOptions options_;
+    Ledger& ledger_;
+    Chooser* chooser_;
+    std::uint64_t primitives_;
+    PrimitiveList listed_;
+    mutable MadeOnce<Made> made_;
+};
+
+}  // namespace firstray::lazy
