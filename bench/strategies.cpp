@@ -19,8 +19,8 @@ using OwnWords = std::vector<std::pair<std::string, std::string>>;
 constexpr std::string_view obb_groups[] = {"dynamic", "all"}, obb_top[] = {"grid", "list"},
                            obb_hits[] = {"root", "local"}, obb_inside[] = {"auto", "grid", "list", "lazy"},
                            lazy_top[] = {"groups", "primitives"},
-                           list_or_grid[] = {"learned", "always-grid", "always-list", "threshold=N"},
-                           forecast[] = {"on", "off"}, costs[] = {"calibrated", "NAME=NS,..."};
+                           list_or_grid[] = {"learned", "evidence", "always-grid", "always-list", "threshold=N"},
+                           costs[] = {"calibrated", "NAME=NS,..."};
 
 /// Position of the word that was chosen for a flag; 0 where none was.
 /// throws  std::invalid_argument for a word that is not one of the choice's
@@ -83,7 +83,7 @@ void check_costs(const std::string& word)
 template <typename Real>
 std::unique_ptr<Strategy<Real>> make_adaptive(const Scene& scene, const StrategyOptions& options)
 {
-    lazy::Rule rule{.forecasts = chosen(options.own, "forecast") == 0, .costs = lazy::calibrated_costs()};
+    lazy::Rule rule{.costs = lazy::calibrated_costs()};
     if (const std::string* word = word_of(options.own, "list-or-grid")) lazy::set_choice(rule, *word);
     if (const std::string* word = word_of(options.own, "costs")) rule.costs = lazy::replace_costs(rule.costs, *word);
     return lazy::make_lazy<Real>(scene, options, {.rule = rule});
@@ -119,9 +119,8 @@ std::span<const OwnChoice> own_choices()
         {"obb", "obb-hits", obb_hits, "decide hits in the root system, or the box's (the paper)"},
         {"obb", "obb-inside", obb_inside, "what is in a box"},
         {"lazy", "lazy-top", lazy_top, "list what moves by groups, or all of it (the paper)"},
-        {"adaptive", "list-or-grid", list_or_grid, "how it chooses; N primitives", &check_list_or_grid},
-        {"adaptive", "forecast", forecast, "learn from the last frame's rays too"},
-        {"adaptive", "costs", costs, "see info --costs", &check_costs},
+        {"adaptive", "list-or-grid", list_or_grid, "by last frame's rays and this one's, by these, ...", &check_list_or_grid},
+        {"adaptive", "costs", costs, "what it counts with; see info --costs", &check_costs},
     };
     return table;
 }

@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "engine/scene/pose.h"
+#include "lazy/flat_list.h"
 #include "lazy/lazy.h"
 #include "lazy/lazy_grid.h"
 
@@ -132,13 +133,6 @@ void measure_groups(Costs& costs)
     costs.entry = one_pack - past - costs.pack;
 }
 
-void measure_tiles(Costs& costs)
-{
-    const Rule lists{.choice = ListOrGrid::always_list};
-    const double difference = per_ray(stack(many, false), lists) - per_ray(stack(few, false), lists);
-    costs.tile_test = 16.0 * difference / (many - few);
-}
-
 /// What it takes to build all voxels of a grid.
 double build_all(const GridEntries& entries, const GridOptions& options, double& voxels, double& listed)
 {
@@ -162,20 +156,22 @@ double build_all(const GridEntries& entries, const GridOptions& options, double&
 
 void measure_builds(Costs& costs)
 {
-    const Scene scene = hills(24);
+    const Scene scene = hills(16);
     const auto n = static_cast<double>(scene.triangles.size());
     const Pose now = pose(scene, 0.0);
     RootGeometry<float> geometry(scene);
     geometry.update_on_touch(now);
     geometry.touch(0);
-    costs.carrying = nanoseconds([&] {
-                         RootGeometry<float> another(scene);
-                         another.update_on_touch(now);
-                         another.touch(0);
-                     }) / n -
-                     nanoseconds([&] { RootGeometry<float> another(scene); }) / n;
+    const double only_made = nanoseconds([&] { RootGeometry<float> another(scene); });
+    const double carried_too = nanoseconds([&] {
+        RootGeometry<float> another(scene);
+        another.update_on_touch(now);
+        another.touch(0);
+    });
+    costs.carrying = (carried_too - only_made) / n;
     PrimitiveList primitives;
     geometry.list(0, primitives);
+    costs.packing = nanoseconds([&] { make_flat_list(geometry, primitives); }) / n;
     Ledger ledger(0);
     costs.listing =
         nanoseconds([&] { const LazyGrid grid(make_entries(geometry, primitives, nullptr), {}, ledger, nullptr); }) / n;
@@ -193,7 +189,6 @@ Costs calibrate()
 {
     Costs costs;
     measure_groups(costs);
-    measure_tiles(costs);
     measure_builds(costs);
     for (const CostName& name : cost_names()) costs.*name.cost = std::max(costs.*name.cost, least_cost);
     return costs;

@@ -1,6 +1,6 @@
 #include "lazy/chooser.h"
 
-#include "engine/grid/build.h"
+#include <algorithm>
 
 namespace firstray::lazy {
 namespace {
@@ -29,18 +29,18 @@ std::size_t Chooser::lay_out(const Scene& scene, std::uint64_t one_voxel)
     for (std::uint32_t i = 0; i < scene.groups.size(); ++i) {
         const std::uint64_t primitives = scene.groups[i].primitives();
         const bool is_one_voxel = i > 0 && primitives <= one_voxel;
-        groups_.push_back(i == 0 ? scenery_alternatives(rule_.costs, primitives)
-                                 : group_alternatives(rule_.costs, primitives, is_one_voxel));
+        groups_.push_back(group_alternatives(rule_.costs, primitives, is_one_voxel));
         voxels_.push_back({next, is_one_voxel ? 0 : voxels_expected(primitives)});
         next += voxels_.back().count;
     }
     return next;
 }
 
-bool Chooser::is_time_to_build(std::uint32_t place, std::uint64_t rays, const Alternatives& choice)
+bool Chooser::is_time_to_build(std::uint32_t place, std::uint64_t rays, const Alternatives& choice, double expected)
 {
-    const std::uint64_t needed = rays_to_build(rule_, choice);
+    std::uint64_t needed = rays_to_build(rule_, choice);
     if (needed == never) return false;
+    needed -= std::min(needed, static_cast<std::uint64_t>(expected));
     // A forecast is believed as soon as there is one: what moves hardly changes what it shows from frame to frame, and
     // where a camera cuts, a build too many is what a wrong one costs, once.
     if (rule_.forecasts && place < forecast_.size() && forecast_[place] >= needed) return true;
@@ -64,10 +64,10 @@ void Chooser::begin_frame(std::uint32_t group, bool moved)
     for (std::size_t i = 0; i < voxels_[group].count; ++i) clear(voxels_[group].first + i);
 }
 
-bool Chooser::is_expected_to_pay(std::uint32_t group) const
+bool Chooser::is_expected_to_pay(std::uint32_t group, const Alternatives& choice) const
 {
     const std::uint64_t expected = rule_.forecasts ? forecast_[group] : 0;
-    return rule_.choice == ListOrGrid::learned && listed(group) + expected >= rays_to_build(rule_, groups_[group]);
+    return rule_.choice == ListOrGrid::learned && listed(group) + expected >= rays_to_build(rule_, choice);
 }
 
 void Chooser::report(std::uint32_t place, const Alternatives& choice, bool is_built, ChoiceReport& report) const

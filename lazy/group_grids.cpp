@@ -37,7 +37,7 @@ const LazyGrid* GroupGrids<Real>::enter_first(std::uint32_t group, std::uint64_t
 {
     const auto make_one = [&] { return grids_[group].get_or_make([&] { return make(group); }); };
     if (!chooser_) return make_one();
-    const LazyGrid* const made = chooser_->enter(group, rays, chooser_->group(group), make_one);
+    const LazyGrid* const made = chooser_->enter(group, rays, chooser_->group(group), 0.0, make_one);
     if (!made && is_carried_first(chooser_->rule().costs)) geometry_.touch(group);
     return made;
 }
@@ -81,7 +81,7 @@ template <typename Real>
 VoxelChoice GroupGrids<Real>::choice_in(std::uint32_t group) const
 {
     if (!chooser_ || chooser_->voxels_of(group).count == 0) return {};
-    return {chooser_, chooser_->voxels_of(group)};
+    return {chooser_, chooser_->voxels_of(group), false};
 }
 
 /// A group that would not be split as a voxel is one voxel: its packs have boxes, which are grid enough.

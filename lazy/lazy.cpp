@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "engine/grid/boxed_grid.h"
+#include "engine/grid/search.h"
 #include "engine/strategy/group_bounds.h"
 #include "engine/strategy/list_search.h"
 #include "lazy/group_grids.h"
@@ -82,9 +83,7 @@ private:
 template <typename Real>
 void LazyStrategy<Real>::search(RayTile<Real>& rays, bool any) const
 {
-    // Tests of a tile are made sixteen rays at a time, whether there are as many or not.
-    const auto tested = static_cast<std::uint64_t>((rays.count + 15) / 16 * 16);
-    const MadeScenery* const scenery = scenery_.enter(tested);
+    const MadeScenery* const scenery = scenery_.enter(static_cast<std::uint64_t>(rays.count));
     if (scenery || scenery_.is_empty())
         search_grids(scenery, rays, any);
     else
@@ -109,7 +108,12 @@ void LazyStrategy<Real>::search_grids(const MadeScenery* scenery, RayTile<Real>&
 template <typename Real>
 void LazyStrategy<Real>::search_lists(RayTile<Real>& rays, bool any) const
 {
-    search_list(geometry_, scenery_.listed(), options_.precision, any, rays);
+    if (const GridStructure* flat = scenery_.flat_list()) {
+        const firstray::SearchTarget<Real> target{flat, &geometry_, options_.precision};
+        any ? firstray::search_any(target, rays) : firstray::search_closest(target, rays);
+    } else {
+        search_list(geometry_, scenery_.listed(), options_.precision, any, rays);
+    }
     if (outer_.voxels.empty()) return;
     const auto rest = std::make_unique<RayTile<Real>>(rays);
     const auto count = static_cast<std::size_t>(rays.count);
@@ -244,7 +248,7 @@ ChoiceReport LazyStrategy<Real>::choices() const
 {
     ChoiceReport report{.is_made = true};
     const auto add = [&](std::uint32_t group, const LazyGrid* grid) {
-        chooser_->report(group, chooser_->group(group), grid != nullptr, report);
+        chooser_->report(group, group == 0 ? scenery_.alternatives() : chooser_->group(group), grid != nullptr, report);
         if (grid && chooser_->voxels_of(group).count > 0) grid->report_choices(report);
     };
     const MadeScenery* const scenery = scenery_.made();

@@ -24,6 +24,9 @@ LazyGrid::LazyGrid(GridEntries entries, const GridOptions& options, Ledger& ledg
       choice_(choice),
       ledger_(ledger)
 {
+    if (choice_.chooser)
+        for (std::uint32_t cell = 0; cell < top_.structure.cells.size(); ++cell)
+            filled_ += listed(cell).empty() ? 0.0 : 1.0;
     held_ = entries_.bytes() + top_.structure.bytes() + top_.lists.bytes() +
             top_.structure.cells.size() * sizeof(MadeOnce<GridStructure>);
 }
@@ -39,7 +42,8 @@ const GridStructure* LazyGrid::enter_first(std::uint32_t cell, std::uint64_t ray
     const auto make = [&] { return voxels_[cell].get_or_make([&] { return build(cell); }); };
     if (!choice_.chooser) return make();
     const Alternatives alternatives = voxel_alternatives(choice_.chooser->rule().costs, listed(cell).size());
-    return choice_.chooser->enter(choice_.places.of(cell), rays, alternatives, make);
+    const double expected = choice_.is_scenery ? choice_.chooser->expected_in_voxel(filled_) : 0.0;
+    return choice_.chooser->enter(choice_.places.of(cell), rays, alternatives, expected, make);
 }
 
 std::unique_ptr<GridStructure> LazyGrid::build(std::uint32_t cell) const

@@ -17,6 +17,7 @@ namespace firstray::lazy {
 struct VoxelChoice {
     Chooser* chooser = nullptr;  ///< null: the first ray has a voxel built
     Chooser::Range places{};
+    bool is_scenery = false;  ///< voxels expect what other voxels have had
 };
 
 /// How much of a lazy grid there is.
@@ -76,6 +77,7 @@ private:
     std::unique_ptr<MadeOnce<GridStructure>[]> voxels_;  ///< by cell
     std::vector<std::uint8_t> kept_;  ///< by cell: built before the last keep(); empty before the first
     VoxelChoice choice_;
+    double filled_ = 0.0;  ///< voxels that list anything; counted where they are chosen among
     Ledger& ledger_;
     std::uint64_t held_ = 0;
 };

@@ -15,6 +15,9 @@ namespace {
 /// whose cells hold about as much.
 constexpr double packs_met = 3.0, blocks_met = 4.0;
 
+/// The part of a flat list's packs that a ray usually meets.
+constexpr double usual_share_met = 0.03;
+
 /// Packs and blocks of boxes that a ray is tested against where primitives stand in a grid.
 double packs_tested(std::uint64_t primitives)
 {
@@ -55,7 +58,7 @@ std::span<const CostName> cost_names()
         {"test_alone", "the same where the group is not carried", &Costs::test_alone},
         {"pack", "a ray against sixteen triangles, or boxes of them", &Costs::pack},
         {"entry", "sending a ray into the grid of a group", &Costs::entry},
-        {"tile_test", "sixteen rays of a tile against a primitive", &Costs::tile_test},
+        {"packing", "putting a primitive into a flat list", &Costs::packing},
         {"carrying", "carrying a primitive into the root system", &Costs::carrying},
         {"listing", "putting a primitive into a top grid", &Costs::listing},
         {"building", "building, per primitive that a voxel lists", &Costs::building},
@@ -75,6 +78,8 @@ Costs replace_costs(Costs costs, std::string_view text)
 void set_choice(Rule& rule, std::string_view text)
 {
     constexpr std::string_view words[] = {"learned", "always-grid", "always-list"};
+    rule.forecasts = text != "evidence";
+    if (text == "evidence") text = "learned";
     constexpr std::string_view prefix = "threshold=";
     for (std::size_t i = 0; i < std::size(words); ++i)
         if (text == words[i]) {
@@ -87,8 +92,9 @@ void set_choice(Rule& rule, std::string_view text)
         rule.choice = ListOrGrid::threshold;
         if (error == std::errc{} && end == number.data() + number.size()) return;
     }
-    throw std::invalid_argument("'" + std::string(text) +
-                                "', expected learned, always-grid, always-list or threshold=N, e.g. threshold=100");
+    throw std::invalid_argument(
+        "'" + std::string(text) +
+        "', expected learned, evidence, always-grid, always-list or threshold=N, e.g. threshold=100");
 }
 
 bool is_carried_first(const Costs& costs)
@@ -96,13 +102,17 @@ bool is_carried_first(const Costs& costs)
     return costs.carrying + costs.test <= costs.test_alone;
 }
 
-Alternatives scenery_alternatives(const Costs& costs, std::uint64_t primitives)
+/// Of the grid only the top level is made at first, but its rays soon have most of what they see built.
+Alternatives scenery_alternatives(const Costs& costs, std::uint64_t primitives, double met)
 {
     const auto n = static_cast<double>(primitives);
+    const double packs = std::ceil(n / pack_size);
+    if (met < 0.0) met = usual_share_met * packs;
     return {.primitives = primitives,
-            .list = n * costs.tile_test / 16.0,
-            .grid = packs_tested(primitives) * costs.pack,
-            .build = costs.making + n * costs.listing};
+            .once = n * costs.packing,
+            .list = (std::ceil(packs / pack_size) + met) * costs.pack,
+            .grid = voxels_met * packs_tested(primitives) * costs.pack,
+            .build = costs.making + n * (costs.listing + costs.building)};
 }
 
 Alternatives group_alternatives(const Costs& costs, std::uint64_t primitives, bool is_one_voxel)

@@ -11,7 +11,7 @@ struct Costs {
     double test_alone = 60.0;  ///< the same where the group is not carried
     double pack = 8.0;         ///< a ray against a pack of sixteen triangles, or sixteen boxes
     double entry = 60.0;       ///< sending a ray into the grid of a group
-    double tile_test = 25.0;   ///< sixteen rays of a tile against a primitive
+    double packing = 20.0;     ///< putting a carried primitive into a flat list
     double carrying = 15.0;    ///< carrying a primitive into the root system
     double listing = 80.0;     ///< putting a carried primitive into a top grid
     double building = 100.0;   ///< putting a primitive that a voxel lists into what is built of it
@@ -43,7 +43,8 @@ struct Rule {
     Costs costs{};
 };
 
-/// "learned", "always-grid", "always-list" or "threshold=N" in the rule's place.
+/// Puts "learned", "evidence" (learned, but without forecasts), "always-grid", "always-list" or "threshold=N" into a
+/// rule.
 /// throws  std::invalid_argument
 void set_choice(Rule& rule, std::string_view text);
 
@@ -56,14 +57,18 @@ struct Alternatives {
     double build = 0.0;  ///< ns
 };
 
-/// The scenery: a list is tested against sixteen rays at once; of the grid the top level is built.
-Alternatives scenery_alternatives(const Costs& costs, std::uint64_t primitives);
+/// The scenery, whose list is a flat list (flat_list.h).
+/// packs_met  that a ray is expected to meet in it; < 0: as many as usual
+Alternatives scenery_alternatives(const Costs& costs, std::uint64_t primitives, double packs_met = -1.0);
 /// A group that moves. is_one_voxel: its grid has one cell, which is built with it.
 Alternatives group_alternatives(const Costs& costs, std::uint64_t primitives, bool is_one_voxel);
 /// A voxel of a top grid, by how many primitives it lists.
 Alternatives voxel_alternatives(const Costs& costs, std::uint64_t listed);
 /// Whether a group is best carried by the first ray that enters it even if it gets no grid.
 bool is_carried_first(const Costs& costs);
+
+/// Voxels of the scenery that a ray usually goes through to its hit.
+inline constexpr double voxels_met = 4.0;
 
 inline constexpr std::uint64_t never = ~std::uint64_t{0};
 

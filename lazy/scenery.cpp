@@ -29,10 +29,15 @@ Scenery<Real>::Scenery(const Scene& scene, const RootGeometry<Real>& geometry, s
 template <typename Real>
 std::uint64_t Scenery<Real>::update(const Executor* executor)
 {
-    if (made()) listed_ = {};
+    if (made()) {
+        if (const FlatList* flat = flat_list_.get()) packs_met_ = flat->packs_met;
+        flat_list_.take();
+        listed_ = {};
+    }
     if (is_empty() || made()) return 0;
     made_.forget_refusal();
-    if (!chooser_ || chooser_->is_expected_to_pay(0)) {
+    flat_list_.forget_refusal();
+    if (!chooser_ || chooser_->is_expected_to_pay(0, alternatives())) {
         made_.get_or_make([&] { return make(executor); });
         return primitives_;
     }
@@ -49,40 +54,64 @@ const typename Scenery<Real>::Made* Scenery<Real>::enter(std::uint64_t rays) con
     if (is_empty()) return nullptr;
     const Made* const there = made();
     if (!there)
-        return chooser_->enter(0, rays, chooser_->group(0),
-                               [&] { return made_.get_or_make([&] { return make_for_rays(); }); });
+        return chooser_->enter(0, rays, alternatives(), 0.0, [&] {
+            return made_.get_or_make([&] { return while_rays_fly([&] { return make(nullptr); }); });
+        });
     if (chooser_) chooser_->count_gridded(0, rays);
     return there;
 }
 
-/// As make(), under a claim: so that nothing may be thrown, no task spawned, and no byte too many held.
+/// Makes something under a claim: nothing may be thrown, no task spawned, and no byte too many held.
 template <typename Real>
-std::unique_ptr<typename Scenery<Real>::Made> Scenery<Real>::make_for_rays() const
+template <class Make>
+auto Scenery<Real>::while_rays_fly(const Make& make) const -> decltype(make())
 {
     using Clock = std::chrono::steady_clock;
     const Clock::time_point start = Clock::now();
     const std::uint64_t guess = primitives_ * guessed_bytes;
     if (!ledger_.charge(guess)) return nullptr;
-    ledger_.give_back(guess);  // it is not counted among what is lazy, like one that an update makes
+    ledger_.give_back(guess);  // it is not counted among what is lazy, like what an update makes
     try {
-        auto fresh = make(nullptr);
+        auto made = make();
         ledger_.note_built(static_cast<std::uint64_t>((Clock::now() - start).count()));
-        return fresh;
+        return made;
     } catch (const std::bad_alloc&) {
         return nullptr;
     }
 }
 
 template <typename Real>
+const GridStructure* Scenery<Real>::flat_list() const
+{
+    const FlatList* const made = flat_list_.get_or_make(
+        [&] { return while_rays_fly([&] { return std::make_unique<FlatList>(make_flat_list(geometry_, listed_)); }); });
+    return made ? &made->structure : nullptr;
+}
+
+template <typename Real>
+Alternatives Scenery<Real>::alternatives() const
+{
+    const FlatList* const flat = flat_list_.get();
+    return scenery_alternatives(chooser_->rule().costs, primitives_, flat ? flat->packs_met : packs_met_);
+}
+
+template <typename Real>
 std::unique_ptr<typename Scenery<Real>::Made> Scenery<Real>::make(const Executor* executor) const
 {
-    const VoxelChoice choice = chooser_ ? VoxelChoice{chooser_, chooser_->voxels_of(0)} : VoxelChoice{};
+    const VoxelChoice choice = chooser_ ? VoxelChoice{chooser_, chooser_->voxels_of(0), true} : VoxelChoice{};
     auto fresh =
         std::unique_ptr<Made>(new Made{LazyGrid(scenery_entries(geometry_, room_of_movers(scene_, bounds_), executor),
                                                 options_, ledger_, executor, choice),
                                        {}});
     fresh->around.structure = fresh->grid.top();
     return fresh;
+}
+
+template <typename Real>
+std::uint64_t Scenery<Real>::bytes() const
+{
+    const FlatList* const flat = flat_list_.get();
+    return (made() ? made()->grid.bytes() + made()->around.bytes() : 0) + (flat ? flat->structure.bytes() : 0);
 }
 
 template class Scenery<float>;

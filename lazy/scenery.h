@@ -6,6 +6,7 @@
 #include "engine/grid/boxed_grid.h"
 #include "engine/grid/build.h"
 #include "engine/strategy/root_geometry.h"
+#include "lazy/flat_list.h"
 #include "lazy/lazy_grid.h"
 
 namespace firstray::lazy {
@@ -33,17 +34,23 @@ public:
     Made* made_alone() { return made_.get_alone(); }
 
     /// The same for rays that are about to search it together, who may have it made. Null where anything stands: they
-    /// are to be tested against listed(). Any number of threads.
+    /// are to search the flat list. Any number of threads.
     const Made* enter(std::uint64_t rays) const;
+    /// The primitives in packs, which the first rays have made; null while another thread makes them, or where there is
+    /// no memory for it: then rays are to be tested against listed(). Any number of threads.
+    const GridStructure* flat_list() const;
+    /// What the chooser compares, by what is known now.
+    Alternatives alternatives() const;
     /// Largest coordinate of the grid; 0 without one.
     float largest() const { return made() ? made()->around.structure.largest : 0.0f; }
-    std::uint64_t bytes() const { return made() ? made()->grid.bytes() + made()->around.bytes() : 0; }
+    std::uint64_t bytes() const;
     bool is_empty() const { return primitives_ == 0; }
     const PrimitiveList& listed() const { return listed_; }
 
 private:
     std::unique_ptr<Made> make(const Executor* executor) const;
-    std::unique_ptr<Made> make_for_rays() const;
+    template <class Make>
+    auto while_rays_fly(const Make& make) const -> decltype(make());
 
     const Scene& scene_;
     const RootGeometry<Real>& geometry_;
@@ -53,6 +60,8 @@ private:
     Chooser* chooser_;
     std::uint64_t primitives_;
     PrimitiveList listed_;
+    double packs_met_ = -1.0;  ///< of the flat list that was given up for the grid
+    mutable MadeOnce<FlatList> flat_list_;
     mutable MadeOnce<Made> made_;
 };
 

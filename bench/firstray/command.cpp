@@ -63,8 +63,10 @@ void add_search(CLI::App& app, SearchChoice& search)
     for (const OwnChoice& own : own_choices()) {
         const std::string flag = "--" + std::string(own.flag);
         if (app.get_option_no_throw(flag)) continue;  // info has it already, and asks with it too
-        add(app, flag, search.own[std::string(own.flag)], "NAME",
-            list_of(own.words) + ": " + std::string(own.summary) + "; default " + std::string(own.words[0]));
+        CLI::Option* option =
+            add(app, flag, search.own[std::string(own.flag)], "NAME",
+                list_of(own.words) + ": " + std::string(own.summary) + "; default " + std::string(own.words[0]));
+        if (own.flag == "costs") option->group("");  // one screen is enough: info tells of it
     }
 }
 
@@ -90,7 +92,7 @@ void add_info(CLI::App& app, InfoJob& job)
 {
     add_scene(app, job.scene)->required(false);
     app.add_flag("--json", job.json, "print JSON");
-    app.add_flag("--costs", job.costs, "also tell what adaptive counts with, ns; --costs=NAME=NS,... replaces some");
+    app.add_flag("--costs", job.costs, "tell what adaptive counts with; --costs=NAME=NS,... sets some, of render and trace too");
     CLI::Option* structure = app.add_flag("--structure", job.structure, "also tell of the boxes and grids of a frame");
     const std::size_t others = app.get_options().size();
     add_int(app, "--frame", job.frame, 0, std::numeric_limits<int>::max(), "the scene's frame, from 0; default 0");

@@ -43,9 +43,9 @@ Contestant contestant_of(std::string_view text)
     const auto pieces = split(text, '+');
     Contestant contestant{std::string(text), entry_of(pieces[0]), {}};
     for (std::size_t i = 1; i < pieces.size(); ++i) {
-        const auto sides = split(pieces[i], '=');
-        if (sides.size() != 2) refuse("expected FLAG=WORD in " + std::string(text));
-        contestant.own.emplace_back(sides[0], sides[1]);
+        const std::size_t equals = pieces[i].find('=');
+        if (equals == std::string_view::npos) refuse("expected FLAG=WORD in " + std::string(text));
+        contestant.own.emplace_back(pieces[i].substr(0, equals), pieces[i].substr(equals + 1));
     }
     return contestant;
 }

@@ -56,7 +56,7 @@ TEST_CASE("a command line that cannot be taken is told in one line and exits wit
         {"trace a.aff --frame 0 --rays r.csv --obb-hits world", "--obb-hits: 'world', expected root or local"},
         {"info a.aff --structure --obb-inside auot", "expected auto, grid, list or lazy; did you mean auto?"},
         {"render a.aff --obb-top list", "--obb-top is for --strategy obb, not grid"},
-        {"render a.aff --strategy obb --structure-budget 9", "--structure-budget is for --strategy lazy, not obb"},
+        {"render a.aff --strategy obb --structure-budget 9", "--structure-budget is for --strategy lazy or adaptive, not obb"},
         {"info a.aff --obb-top list", "--obb-top requires --structure"},
         {"trace a.aff --rays r.csv", "needs --frame"},
         {"trace a.aff --frame 0", "needs --rays"},

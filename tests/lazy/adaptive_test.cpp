@@ -21,7 +21,7 @@ constexpr lazy::Costs easy = {.test = 1,
                               .test_alone = 100,
                               .pack = 1,
                               .entry = 1,
-                              .tile_test = 32,
+                              .packing = 3,
                               .carrying = 1,
                               .listing = 2,
                               .building = 2,
@@ -127,29 +127,51 @@ TEST_CASE("adaptive: lists, grids and thresholds are what was asked for")
     check(lists.frame(moves, 1000), 1, 0, 10 + 10000, 10 + 80 + 2000);
 }
 
-TEST_CASE("adaptive: scenery is tested by tiles until as much is spent as its top grid costs")
+TEST_CASE("adaptive: scenery is a flat list until as much is spent in it as its top grid costs")
 {
-    // 10 primitives: 20 ns a ray in a list, 1 in the grid, 40 to make: two blocks of 16 rays are enough for the third
+    // 10 primitives that are one pack, which half of all rays would meet: its boxes' block is tested, and it
     lazy::Costs costs = easy;
-    costs.listing = 60;  // 620 to make: more than 32 rays
-    Script script(ten_triangles(), {.forecasts = false, .costs = costs});
-    check(script.frame(stands, 1), 1, 0, 16 * 20, 16 * 20);  // a ray counts as sixteen
-    CHECK(script.strategy().report().grids == 0);
-    check(script.frame(stands, 1), 1, 0, 32 * 20, 32 * 20);
-    CHECK(script.frame(stands, 1).grids >= 1);
-    CHECK(script.strategy().report().grids == 1);
+    costs.pack = 10;
+    costs.listing = 100;
+    const lazy::Alternatives place = lazy::scenery_alternatives(costs, 10, 1.0);
+    CHECK(place.once == 30);
+    CHECK(place.list == 20);
+    CHECK(place.grid == 40);  // of ten primitives never a grid
+    Script never(ten_triangles(), {.costs = costs});
+    check(never.frame(stands, 1000, 10), 1, 0, 30 + 1000 * 20, 30 + 1000 * 20);
+    CHECK(never.strategy().report().grids == 0);
+
+    SmallScene small;
+    for (int i = 0; i < 16000; ++i) small.triangle({}, {-1, -1, 1e-5 * i}, {1, -1, 1e-5 * i}, {-1, 1, 1e-5 * i});
+    const Scene stack = small.build();
+    Script script(stack, {.forecasts = false, .costs = costs});
+    const auto grids = [&](Script& played) { return played.strategy().report().grids; };
+    // a ray is expected to meet more than half of 1000 packs, in 63 blocks: more than 5 us; 1.6 ms to build
+    int frames = 0;
+    double list = 0.0;
+    for (; grids(script) == 0; ++frames) {
+        REQUIRE(frames < 100);
+        const ChoiceReport report = script.frame(stands, 10);
+        if (grids(script) == 0) list = report.spent_ms * 1e6 - 16000 * 3;
+        CHECK(report.ratio() <= 2.0);
+    }
+    CHECK(frames > 10);
+    CHECK(list < 20 + 16000 * 102 + 280 * 1000);       // not more than building, and the same rays in the grid
+    CHECK(list > 0.9 * (20 + 16000 * 102));            // nor much less
     CHECK(script.strategy().report().regridded == 0);  // by the ray, not by the update
 
-    Script expected(ten_triangles(), {.costs = costs});
-    expected.frame(stands, 32, 16);
-    CHECK(expected.strategy().report().grids == 0);
-    expected.frame(stands, 0);  // 32 more are expected
-    CHECK(expected.strategy().report().grids == 1);
-    CHECK(expected.strategy().report().regridded == 10);
+    Script expecting(stack, {.costs = costs});
+    const int almost = 10 * (frames - 1);
+    expecting.frame(stands, almost, 10);
+    CHECK(grids(expecting) == 0);
+    expecting.frame(stands, 0);  // as many more are expected
+    CHECK(grids(expecting) == 1);
+    CHECK(expecting.strategy().report().regridded == 16000);
 
-    Script crowd(ten_triangles(), {.costs = costs});
-    crowd.frame(stands, 1024, 1024);
-    CHECK(crowd.strategy().report().grids == 1);
+    Script crowd(stack, {.forecasts = false, .costs = costs});
+    crowd.frame(stands, 1000, 1000);  // so many at once need no list
+    CHECK(grids(crowd) == 1);
+    CHECK(crowd.strategy().report().choices.ratio() < 1.5);
 }
 
 TEST_CASE("adaptive: whatever is chosen, hits are the list's in every frame of moving scenes, with any budget")

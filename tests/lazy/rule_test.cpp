@@ -16,7 +16,7 @@ constexpr Costs easy = {.test = 1,
                         .test_alone = 100,
                         .pack = 1,
                         .entry = 1,
-                        .tile_test = 32,
+                        .packing = 3,
                         .carrying = 1,
                         .listing = 2,
                         .building = 2,
@@ -57,10 +57,13 @@ TEST_CASE("rule: costs of places, computed by hand")
     CHECK(voxel.grid == 7);
     CHECK(voxel.build == 20 + 5000 * 2);
 
-    const Alternatives scenery = scenery_alternatives(easy, 100);
-    CHECK(scenery.list == 200);
-    CHECK(scenery.grid == 4);
-    CHECK(scenery.build == 220);
+    // 1000 primitives: 63 packs in 4 blocks of boxes; four voxels of 3 packs and 4 blocks
+    const Alternatives scenery = scenery_alternatives(easy, 1000, 5.0);
+    CHECK(scenery.once == 3000);
+    CHECK(scenery.list == 4 + 5);
+    CHECK(scenery.grid == 4 * 7);
+    CHECK(scenery.build == 20 + 1000 * (2 + 2));
+    CHECK(scenery_alternatives(easy, 1000).list == doctest::Approx(4 + 0.03 * 63));
 }
 
 TEST_CASE("rule: where carrying costs more than one test alone saves, nothing is carried for a list")
@@ -145,6 +148,12 @@ TEST_CASE("rule: words are read, and what is none is refused with what was expec
     set_choice(rule, "threshold=100");
     CHECK(rule.choice == ListOrGrid::threshold);
     CHECK(rule.threshold == 100);
+    CHECK(rule.forecasts);
+    set_choice(rule, "evidence");
+    CHECK(rule.choice == ListOrGrid::learned);
+    CHECK(!rule.forecasts);
+    set_choice(rule, "learned");
+    CHECK(rule.forecasts);
     for (const char* wrong : {"", "list", "threshold", "threshold=", "threshold=-1", "threshold=1x"})
         CHECK_THROWS_AS(set_choice(rule, wrong), std::invalid_argument);
 
