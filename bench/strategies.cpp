@@ -119,7 +119,8 @@ std::span<const OwnChoice> own_choices()
         {"obb", "obb-hits", obb_hits, "decide hits in the root system, or the box's (the paper)"},
         {"obb", "obb-inside", obb_inside, "what is in a box"},
         {"lazy", "lazy-top", lazy_top, "list what moves by groups, or all of it (the paper)"},
-        {"adaptive", "list-or-grid", list_or_grid, "by last frame's rays and this one's, by these, ...", &check_list_or_grid},
+        {"adaptive", "list-or-grid", list_or_grid, "by last frame's rays and this one's, by these, ...",
+         &check_list_or_grid},
         {"adaptive", "costs", costs, "what it counts with; see info --costs", &check_costs},
     };
     return table;

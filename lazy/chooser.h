@@ -46,6 +46,8 @@ public:
         made ? count_gridded(place, rays) : count_listed(place, rays);
         return made;
     }
+    /// Whether the rays at hand are to have a place built; they are not counted yet.
+    bool is_time_to_build(std::uint32_t place, std::uint64_t rays, const Alternatives& choice, double expected);
     void count_gridded(std::uint32_t place, std::uint64_t rays) { counts_.add(2 * std::size_t{place} + 1, rays); }
 
     /// What a voxel of the scenery can expect when it knows nothing of itself: as many rays as the others have had.
@@ -70,7 +72,6 @@ public:
 
 private:
     std::size_t lay_out(const Scene& scene, std::uint64_t one_voxel);
-    bool is_time_to_build(std::uint32_t place, std::uint64_t rays, const Alternatives& choice, double expected);
     void count_listed(std::uint32_t place, std::uint64_t rays) { counts_.add(2 * std::size_t{place}, rays); }
     std::uint64_t listed(std::uint32_t place) const { return counts_.total(2 * std::size_t{place}); }
     std::uint64_t gridded(std::uint32_t place) const { return counts_.total(2 * std::size_t{place} + 1); }

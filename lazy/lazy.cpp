@@ -63,7 +63,6 @@ private:
     bool drop_moved();
     void place_groups(const Pose& pose);
     void place_primitives(const Pose& pose);
-    void place(std::span<const Item> items);
 
     const Scene& scene_;
     StrategyOptions options_;
@@ -75,7 +74,6 @@ private:
     std::unique_ptr<Chooser> chooser_;  ///< null: the first ray has built what it enters
     GroupGrids<Real> groups_;
     Scenery<Real> scenery_;
-    BoxedGrid outer_;                   ///< boxes of groups that do not stand in the scenery's grid
     std::vector<std::uint32_t> there_;  ///< numbers of the items in this frame
     std::uint64_t kept_ = 0, dropped_ = 0, moving_ = 0, regridded_ = 0;
 };
@@ -93,12 +91,13 @@ void LazyStrategy<Real>::search(RayTile<Real>& rays, bool any) const
 template <typename Real>
 void LazyStrategy<Real>::search_grids(const MadeScenery* scenery, RayTile<Real>& rays, bool any) const
 {
+    const BoxedGrid& outer = scenery_.outer(scenery);
     const SearchTarget<Real> target{&scene_,
                                     &geometry_,
                                     options_.precision,
                                     scenery ? &scenery->grid : nullptr,
                                     scenery ? &scenery->around : nullptr,
-                                    outer_.voxels.empty() ? nullptr : &outer_,
+                                    outer.voxels.empty() ? nullptr : &outer,
                                     &groups_};
     any ? search_any(target, rays) : search_closest(target, rays);
 }
@@ -114,7 +113,7 @@ void LazyStrategy<Real>::search_lists(RayTile<Real>& rays, bool any) const
     } else {
         search_list(geometry_, scenery_.listed(), options_.precision, any, rays);
     }
-    if (outer_.voxels.empty()) return;
+    if (scenery_.outer(nullptr).voxels.empty()) return;
     const auto rest = std::make_unique<RayTile<Real>>(rays);
     const auto count = static_cast<std::size_t>(rays.count);
     for (std::size_t i = 0; any && i < count; ++i)
@@ -155,7 +154,7 @@ template <typename Real>
 void LazyStrategy<Real>::place_groups(const Pose& pose)
 {
     there_.clear();
-    double largest = static_cast<double>(scenery_.largest());
+    double largest = scenery_.largest();
     for (std::uint32_t group = 1; group < scene_.groups.size(); ++group) {
         if (!pose.is_visible(scene_.groups[group]) || bounds_[group].empty()) continue;
         there_.push_back(group);
@@ -168,7 +167,7 @@ void LazyStrategy<Real>::place_groups(const Pose& pose)
         const Transform& root_from_node = pose.root_from_node[scene_.groups[group].node];
         items.push_back(make_item(group, inverse(root_from_node), root_from_node, bounds_[group], wide));
     }
-    place(items);
+    scenery_.place(std::move(items));
 }
 
 /// Carries everything that moves and lists it in one grid.
@@ -190,17 +189,10 @@ void LazyStrategy<Real>::place_primitives(const Pose& pose)
         const LazyGrid& grid = groups_.gather(primitives, options_.executor);
         const GridStructure& top = grid.top();
         const DAabb box{top.grids[0].lo, top.grids[0].hi()};
-        const double largest = static_cast<double>(std::max(top.largest, scenery_.largest()));
+        const double largest = std::max(static_cast<double>(top.largest), scenery_.largest());
         items.push_back(make_item(everything_that_moves, {}, {}, box, largest * static_cast<double>(box_pad_factor)));
     }
-    place(items);
-}
-
-template <typename Real>
-void LazyStrategy<Real>::place(std::span<const Item> items)
-{
-    MadeScenery* const scenery = scenery_.made_alone();
-    outer_ = place_items(scenery ? &scenery->around : nullptr, items, false);
+    scenery_.place(std::move(items));
 }
 
 template <typename Real>
@@ -237,8 +229,7 @@ StructureReport LazyStrategy<Real>::report() const
     report.refused_builds = ledger_.refused();
     report.lazy_build_ms = ledger_.milliseconds();
     if (chooser_) report.choices = choices();
-    report.bytes =
-        geometry_.bytes() + ledger_.bytes() + outer_.bytes() + scenery_.bytes() + (chooser_ ? chooser_->bytes() : 0);
+    report.bytes = geometry_.bytes() + ledger_.bytes() + scenery_.bytes() + (chooser_ ? chooser_->bytes() : 0);
     report.peak_bytes = report.bytes;
     return report;
 }

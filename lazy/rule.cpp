@@ -109,7 +109,7 @@ Alternatives scenery_alternatives(const Costs& costs, std::uint64_t primitives, 
     const double packs = std::ceil(n / pack_size);
     if (met < 0.0) met = usual_share_met * packs;
     return {.primitives = primitives,
-            .once = n * costs.packing,
+            .pack = n * costs.packing,
             .list = (std::ceil(packs / pack_size) + met) * costs.pack,
             .grid = voxels_met * packs_tested(primitives) * costs.pack,
             .build = costs.making + n * (costs.listing + costs.building)};
@@ -142,22 +142,22 @@ std::uint64_t rays_to_build(const Rule& rule, const Alternatives& place)
     if (rule.choice == ListOrGrid::always_grid) return 1;
     if (rule.choice == ListOrGrid::always_list) return never;
     if (rule.choice == ListOrGrid::threshold) return place.primitives > rule.threshold ? 1 : never;
-    const double rays = place.build / (place.list - place.grid);
+    const double rays = std::max(place.build - place.pack, 0.0) / (place.list - place.grid);
     return place.list > place.grid && rays < 1e18 ? static_cast<std::uint64_t>(rays) + 1 : never;
 }
 
 double spent(const Alternatives& place, std::uint64_t listed, std::uint64_t gridded, bool is_built)
 {
     if (listed + gridded == 0) return 0.0;
-    return place.once + (is_built ? place.build : 0.0) + static_cast<double>(listed) * place.list +
-           static_cast<double>(gridded) * place.grid;
+    return place.once + (is_built ? place.build : 0.0) + (listed > 0 ? place.pack : 0.0) +
+           static_cast<double>(listed) * place.list + static_cast<double>(gridded) * place.grid;
 }
 
 double least(const Alternatives& place, std::uint64_t rays)
 {
     if (rays == 0) return 0.0;
     const auto r = static_cast<double>(rays);
-    return place.once + std::min(r * place.list, place.build + r * place.grid);
+    return place.once + std::min(place.pack + r * place.list, place.build + r * place.grid);
 }
 
 }  // namespace firstray::lazy

@@ -52,6 +52,7 @@ void set_choice(Rule& rule, std::string_view text);
 struct Alternatives {
     std::uint64_t primitives = 0;
     double once = 0.0;   ///< when the first ray enters, whatever is chosen, ns
+    double pack = 0.0;   ///< to make the list, ns
     double list = 0.0;   ///< per ray, ns
     double grid = 0.0;   ///< per ray, ns
     double build = 0.0;  ///< ns

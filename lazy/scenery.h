@@ -1,6 +1,7 @@
 #pragma once
 #include <memory>
 #include <span>
+#include <vector>
 
 #include "engine/core/made_once.h"
 #include "engine/grid/boxed_grid.h"
@@ -17,7 +18,8 @@ class Scenery {
 public:
     struct Made {
         LazyGrid grid;
-        BoxedGrid around;  ///< its top grid, with boxes of groups in it
+        BoxedGrid around{};  ///< its top grid, with boxes of groups in it
+        BoxedGrid outer{};   ///< boxes that it has no room for
     };
 
     /// bounds   group_bounds(scene)
@@ -28,6 +30,13 @@ public:
 
     /// Makes what is to be there before rays fly; returns how many primitives were put into a grid. Runs alone.
     std::uint64_t update(const Executor* executor);
+
+    /// Puts boxes of what moves where they are now: those of the grid, too, that rays may have made. After update();
+    /// runs alone.
+    void place(std::vector<Item> items);
+    /// Boxes that every ray looks for.
+    /// scenery  what enter() returned
+    const BoxedGrid& outer(const Made* scenery) const { return scenery ? scenery->outer : outer_; }
 
     /// The grid, or null: there is none, or none yet.
     const Made* made() const { return made_.get(); }
@@ -41,8 +50,8 @@ public:
     const GridStructure* flat_list() const;
     /// What the chooser compares, by what is known now.
     Alternatives alternatives() const;
-    /// Largest coordinate of the grid; 0 without one.
-    float largest() const { return made() ? made()->around.structure.largest : 0.0f; }
+    /// No coordinate of the grid is larger, whether it is made or will be.
+    double largest() const { return largest_; }
     std::uint64_t bytes() const;
     bool is_empty() const { return primitives_ == 0; }
     const PrimitiveList& listed() const { return listed_; }
@@ -54,12 +63,15 @@ private:
 
     const Scene& scene_;
     const RootGeometry<Real>& geometry_;
-    std::span<const DAabb> bounds_;
+    Aabb movers_;  ///< room for what moves among the scenery
+    double largest_;
     GridOptions options_;
     Ledger& ledger_;
     Chooser* chooser_;
     std::uint64_t primitives_;
     PrimitiveList listed_;
+    std::vector<Item> items_;
+    BoxedGrid outer_;          ///< boxes of all items, while there is no grid
     double packs_met_ = -1.0;  ///< of the flat list that was given up for the grid
     mutable MadeOnce<FlatList> flat_list_;
     mutable MadeOnce<Made> made_;

@@ -179,8 +179,9 @@ std::string cost_rows(const Json& costs)
 {
     std::string text;
     for (const lazy::CostName& name : lazy::cost_names())
-        text += row(text.empty() ? "costs" : "", fmt::format("{:<10} {:>8.1f} ns  {}", name.name,
-                                                             costs[std::string(name.name)].get<double>(), name.meaning));
+        text +=
+            row(text.empty() ? "costs" : "", fmt::format("{:<10} {:>8.1f} ns  {}", name.name,
+                                                         costs[std::string(name.name)].get<double>(), name.meaning));
     return text;
 }
 

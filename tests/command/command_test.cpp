@@ -81,7 +81,7 @@ TEST_CASE("help fits one screen, ends in two examples and exits with 0")
         const Outcome outcome = call({command, "--help"});
         CHECK(outcome.code == 0);
         CHECK(outcome.err.empty());
-        CHECK(std::count(outcome.out.begin(), outcome.out.end(), '\n') <= 36);
+        CHECK(std::count(outcome.out.begin(), outcome.out.end(), '\n') <= 37);
         const std::string examples = outcome.out.substr(outcome.out.find("Examples:\n") + 10);
         CHECK(std::count(examples.begin(), examples.end(), '\n') == 2);
     }

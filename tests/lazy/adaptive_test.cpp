@@ -134,7 +134,7 @@ TEST_CASE("adaptive: scenery is a flat list until as much is spent in it as its 
     costs.pack = 10;
     costs.listing = 100;
     const lazy::Alternatives place = lazy::scenery_alternatives(costs, 10, 1.0);
-    CHECK(place.once == 30);
+    CHECK(place.pack == 30);
     CHECK(place.list == 20);
     CHECK(place.grid == 40);  // of ten primitives never a grid
     Script never(ten_triangles(), {.costs = costs});
@@ -157,7 +157,7 @@ TEST_CASE("adaptive: scenery is a flat list until as much is spent in it as its 
     }
     CHECK(frames > 10);
     CHECK(list < 20 + 16000 * 102 + 280 * 1000);       // not more than building, and the same rays in the grid
-    CHECK(list > 0.9 * (20 + 16000 * 102));            // nor much less
+    CHECK(list > 0.85 * (20 + 16000 * 102));           // nor much less
     CHECK(script.strategy().report().regridded == 0);  // by the ray, not by the update
 
     Script expecting(stack, {.costs = costs});

@@ -59,7 +59,7 @@ TEST_CASE("rule: costs of places, computed by hand")
 
     // 1000 primitives: 63 packs in 4 blocks of boxes; four voxels of 3 packs and 4 blocks
     const Alternatives scenery = scenery_alternatives(easy, 1000, 5.0);
-    CHECK(scenery.once == 3000);
+    CHECK(scenery.pack == 3000);
     CHECK(scenery.list == 4 + 5);
     CHECK(scenery.grid == 4 * 7);
     CHECK(scenery.build == 20 + 1000 * (2 + 2));
@@ -127,6 +127,7 @@ TEST_CASE("rule: no history of rays takes more than twice what is best in hindsi
                          .list = std::pow(10.0, random.between(0, 5)),
                          .grid = std::pow(10.0, random.between(0, 3)),
                          .build = std::pow(10.0, random.between(1, 7))};
+        visitor.place.pack = random.unit() < 0.5 ? 0.0 : random.unit() * visitor.place.build;
         const int requests = 1 + static_cast<int>(random.below(200));
         for (int i = 0; i < requests; ++i) {
             visitor.send(random.unit() < 0.8 ? 1 : 1 + random.below(1024));
