@@ -6,7 +6,6 @@
 #include "engine/grid/boxed_grid.h"
 #include "engine/grid/search.h"
 #include "engine/strategy/group_bounds.h"
-#include "engine/strategy/list_search.h"
 #include "lazy/group_grids.h"
 #include "lazy/lazy_grid.h"
 #include "lazy/scenery.h"
@@ -107,12 +106,8 @@ void LazyStrategy<Real>::search_grids(const MadeScenery* scenery, RayTile<Real>&
 template <typename Real>
 void LazyStrategy<Real>::search_lists(RayTile<Real>& rays, bool any) const
 {
-    if (const GridStructure* flat = scenery_.flat_list()) {
-        const firstray::SearchTarget<Real> target{flat, &geometry_, options_.precision};
-        any ? firstray::search_any(target, rays) : firstray::search_closest(target, rays);
-    } else {
-        search_list(geometry_, scenery_.listed(), options_.precision, any, rays);
-    }
+    const firstray::SearchTarget<Real> target{&scenery_.flat_list(), &geometry_, options_.precision};
+    any ? firstray::search_any(target, rays) : firstray::search_closest(target, rays);
     if (scenery_.outer(nullptr).voxels.empty()) return;
     const auto rest = std::make_unique<RayTile<Real>>(rays);
     const auto count = static_cast<std::size_t>(rays.count);

@@ -15,9 +15,6 @@ namespace {
 /// whose cells hold about as much.
 constexpr double packs_met = 3.0, blocks_met = 4.0;
 
-/// The part of a flat list's packs that a ray usually meets.
-constexpr double usual_share_met = 0.03;
-
 /// Packs and blocks of boxes that a ray is tested against where primitives stand in a grid.
 double packs_tested(std::uint64_t primitives)
 {
@@ -107,7 +104,6 @@ Alternatives scenery_alternatives(const Costs& costs, std::uint64_t primitives, 
 {
     const auto n = static_cast<double>(primitives);
     const double packs = std::ceil(n / pack_size);
-    if (met < 0.0) met = usual_share_met * packs;
     return {.primitives = primitives,
             .pack = n * costs.packing,
             .list = (std::ceil(packs / pack_size) + met) * costs.pack,
@@ -149,8 +145,8 @@ std::uint64_t rays_to_build(const Rule& rule, const Alternatives& place)
 double spent(const Alternatives& place, std::uint64_t listed, std::uint64_t gridded, bool is_built)
 {
     if (listed + gridded == 0) return 0.0;
-    return place.once + (is_built ? place.build : 0.0) + (listed > 0 ? place.pack : 0.0) +
-           static_cast<double>(listed) * place.list + static_cast<double>(gridded) * place.grid;
+    return place.once + place.pack + (is_built ? place.build : 0.0) + static_cast<double>(listed) * place.list +
+           static_cast<double>(gridded) * place.grid;
 }
 
 double least(const Alternatives& place, std::uint64_t rays)

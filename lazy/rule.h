@@ -52,15 +52,15 @@ void set_choice(Rule& rule, std::string_view text);
 struct Alternatives {
     std::uint64_t primitives = 0;
     double once = 0.0;   ///< when the first ray enters, whatever is chosen, ns
-    double pack = 0.0;   ///< to make the list, ns
+    double pack = 0.0;   ///< to make the list, which is done before rays come, ns
     double list = 0.0;   ///< per ray, ns
     double grid = 0.0;   ///< per ray, ns
     double build = 0.0;  ///< ns
 };
 
 /// The scenery, whose list is a flat list (flat_list.h).
-/// packs_met  that a ray is expected to meet in it; < 0: as many as usual
-Alternatives scenery_alternatives(const Costs& costs, std::uint64_t primitives, double packs_met = -1.0);
+/// packs_met  that a ray is expected to meet in it
+Alternatives scenery_alternatives(const Costs& costs, std::uint64_t primitives, double packs_met);
 /// A group that moves. is_one_voxel: its grid has one cell, which is built with it.
 Alternatives group_alternatives(const Costs& costs, std::uint64_t primitives, bool is_one_voxel);
 /// A voxel of a top grid, by how many primitives it lists.

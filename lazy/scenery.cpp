@@ -9,9 +9,6 @@
 namespace firstray::lazy {
 namespace {
 
-/// What a top grid may hold for each primitive: its box, its vertices, and where it is listed.
-constexpr std::uint64_t guessed_bytes = sizeof(Aabb) + sizeof(RootTriangle<float>) + 16;
-
 /// A little more than the largest coordinate, for what is rounded to float.
 double largest_of(const DAabb& scenery, const Aabb& movers)
 {
@@ -26,8 +23,7 @@ double largest_of(const DAabb& scenery, const Aabb& movers)
 template <typename Real>
 Scenery<Real>::Scenery(const Scene& scene, const RootGeometry<Real>& geometry, std::span<const DAabb> bounds,
                        const GridOptions& options, Ledger& ledger, Chooser* chooser)
-    : scene_(scene),
-      geometry_(geometry),
+    : geometry_(geometry),
       movers_(room_of_movers(scene, bounds)),
       largest_(scene.groups[0].primitives() == 0 ? 0.0 : largest_of(bounds[0], movers_)),
       options_(options),
@@ -40,21 +36,19 @@ Scenery<Real>::Scenery(const Scene& scene, const RootGeometry<Real>& geometry, s
 template <typename Real>
 std::uint64_t Scenery<Real>::update(const Executor* executor)
 {
-    if (made()) {
-        if (const FlatList* flat = flat_list_.get()) packs_met_ = flat->packs_met;
-        flat_list_.take();
-        listed_ = {};
-    }
+    if (made()) flat_list_.structure = {};
     if (is_empty() || made()) return 0;
     made_.forget_refusal();
-    flat_list_.forget_refusal();
-    if (!chooser_ || chooser_->is_expected_to_pay(0, alternatives())) {
+    const bool is_listed = !flat_list_.structure.lists.empty();
+    if (!chooser_ || (is_listed && chooser_->is_expected_to_pay(0, alternatives()))) {
         made_.get_or_make([&] { return make(executor); });
         return primitives_;
     }
-    if (listed_.size() == 0) {
+    if (!is_listed) {
+        PrimitiveList primitives;
         geometry_.touch(0);
-        geometry_.list(0, listed_);
+        geometry_.list(0, primitives);
+        flat_list_ = make_flat_list(geometry_, primitives);
     }
     return 0;
 }
@@ -78,45 +72,30 @@ const typename Scenery<Real>::Made* Scenery<Real>::enter(std::uint64_t rays) con
         if (chooser_) chooser_->count_gridded(0, rays);
         return there;
     }
-    // How long rays take in the flat list is known when it is there. That it is not worth making can be known before.
-    if (!chooser_->is_time_to_build(0, rays, alternatives(), 0.0)) flat_list();
-    return chooser_->enter(0, rays, alternatives(), 0.0, [&] {
-        return made_.get_or_make([&] { return while_rays_fly([&] { return make(nullptr); }); });
-    });
+    return chooser_->enter(0, rays, alternatives(), 0.0,
+                           [&] { return made_.get_or_make([&] { return make_for_rays(); }); });
 }
 
-/// Makes something under a claim: nothing may be thrown, no task spawned, and no byte too many held.
+/// As make(), under a claim: so that nothing may be thrown and no task spawned. The budget does not forbid it, as it
+/// does not forbid an update: both make the top grid once.
 template <typename Real>
-template <class Make>
-auto Scenery<Real>::while_rays_fly(const Make& make) const -> decltype(make())
+std::unique_ptr<typename Scenery<Real>::Made> Scenery<Real>::make_for_rays() const
 {
     using Clock = std::chrono::steady_clock;
     const Clock::time_point start = Clock::now();
-    const std::uint64_t guess = primitives_ * guessed_bytes;
-    if (!ledger_.charge(guess)) return nullptr;
-    ledger_.give_back(guess);  // it is not counted among what is lazy, like what an update makes
     try {
-        auto made = make();
+        auto made = make(nullptr);
         ledger_.note_built(static_cast<std::uint64_t>((Clock::now() - start).count()));
         return made;
     } catch (const std::bad_alloc&) {
-        return nullptr;
+        return nullptr;  // the flat list is searched instead
     }
-}
-
-template <typename Real>
-const GridStructure* Scenery<Real>::flat_list() const
-{
-    const FlatList* const made = flat_list_.get_or_make(
-        [&] { return while_rays_fly([&] { return std::make_unique<FlatList>(make_flat_list(geometry_, listed_)); }); });
-    return made ? &made->structure : nullptr;
 }
 
 template <typename Real>
 Alternatives Scenery<Real>::alternatives() const
 {
-    const FlatList* const flat = flat_list_.get();
-    return scenery_alternatives(chooser_->rule().costs, primitives_, flat ? flat->packs_met : packs_met_);
+    return scenery_alternatives(chooser_->rule().costs, primitives_, flat_list_.packs_met);
 }
 
 template <typename Real>
@@ -133,9 +112,8 @@ std::unique_ptr<typename Scenery<Real>::Made> Scenery<Real>::make(const Executor
 template <typename Real>
 std::uint64_t Scenery<Real>::bytes() const
 {
-    const FlatList* const flat = flat_list_.get();
     return outer(made()).bytes() + (made() ? made()->grid.bytes() + made()->around.bytes() : 0) +
-           (flat ? flat->structure.bytes() : 0);
+           flat_list_.structure.bytes();
 }
 
 template class Scenery<float>;

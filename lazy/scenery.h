@@ -45,23 +45,19 @@ public:
     /// The same for rays that are about to search it together, who may have it made. Null where anything stands: they
     /// are to search the flat list. Any number of threads.
     const Made* enter(std::uint64_t rays) const;
-    /// The primitives in packs, which the first rays have made; null while another thread makes them, or where there is
-    /// no memory for it: then rays are to be tested against listed(). Any number of threads.
-    const GridStructure* flat_list() const;
+    /// The primitives in packs: there from an update without a grid to the first one with it.
+    const GridStructure& flat_list() const { return flat_list_.structure; }
     /// What the chooser compares, by what is known now.
     Alternatives alternatives() const;
     /// No coordinate of the grid is larger, whether it is made or will be.
     double largest() const { return largest_; }
     std::uint64_t bytes() const;
     bool is_empty() const { return primitives_ == 0; }
-    const PrimitiveList& listed() const { return listed_; }
 
 private:
     std::unique_ptr<Made> make(const Executor* executor) const;
-    template <class Make>
-    auto while_rays_fly(const Make& make) const -> decltype(make());
+    std::unique_ptr<Made> make_for_rays() const;
 
-    const Scene& scene_;
     const RootGeometry<Real>& geometry_;
     Aabb movers_;  ///< room for what moves among the scenery
     double largest_;
@@ -69,11 +65,9 @@ private:
     Ledger& ledger_;
     Chooser* chooser_;
     std::uint64_t primitives_;
-    PrimitiveList listed_;
+    FlatList flat_list_;
     std::vector<Item> items_;
-    BoxedGrid outer_;          ///< boxes of all items, while there is no grid
-    double packs_met_ = -1.0;  ///< of the flat list that was given up for the grid
-    mutable MadeOnce<FlatList> flat_list_;
+    BoxedGrid outer_;  ///< boxes of all items, while there is no grid
     mutable MadeOnce<Made> made_;
 };
 

@@ -12,14 +12,8 @@ public:
     ListStrategy(const Scene& scene, const StrategyOptions& options) : options_(options), geometry_(scene) {}
 
     void update(const Pose& pose) override { geometry_.update(pose, options_.executor); }
-    void closest(RayTile<Real>& rays) const override
-    {
-        search_list(geometry_, geometry_.visible(), options_.precision, false, rays);
-    }
-    void occluded(RayTile<Real>& rays) const override
-    {
-        search_list(geometry_, geometry_.visible(), options_.precision, true, rays);
-    }
+    void closest(RayTile<Real>& rays) const override { search_list(geometry_, options_.precision, false, rays); }
+    void occluded(RayTile<Real>& rays) const override { search_list(geometry_, options_.precision, true, rays); }
     StructureReport report() const override
     {
         StructureReport report;

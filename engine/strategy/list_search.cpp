@@ -72,8 +72,7 @@ void test_triangle(const RootTriangle<Real>& triangle, PrimitiveId id, Precision
 }
 
 template <typename Real>
-void search_tile(const RootGeometry<Real>& geometry, const PrimitiveList& primitives, Precision precision, bool any,
-                 RayTile<Real>& tile)
+void search_tile(const RootGeometry<Real>& geometry, Precision precision, bool any, RayTile<Real>& tile)
 {
     const auto begin = std::chrono::steady_clock::now();
     const auto search = std::make_unique<ListSearch<Real>>(tile);
@@ -82,12 +81,12 @@ void search_tile(const RootGeometry<Real>& geometry, const PrimitiveList& primit
                                   [](const Hit<Real>& hit) { return hit.id != no_primitive; });
     };
     std::uint32_t tests = 0;
-    for (const PrimitiveId id : primitives.triangles) {
+    for (const PrimitiveId id : geometry.visible().triangles) {
         if (!admits(tile.mask, geometry.transmits(id))) continue;
         if (++tests % 4096 == 0 && is_done()) break;
         test_triangle(geometry.triangle(id), id, precision, *search);
     }
-    for (const PrimitiveId id : primitives.quadrics) {
+    for (const PrimitiveId id : geometry.visible().quadrics) {
         const RootQuadric& quadric = geometry.quadric(id);
         if (!admits(tile.mask, quadric.transmits)) continue;
         ++tests;
@@ -106,15 +105,13 @@ void search_tile(const RootGeometry<Real>& geometry, const PrimitiveList& primit
     }
 }
 
-void list_float(const RootGeometry<float>& geometry, const PrimitiveList& primitives, Precision precision, bool any,
-                RayTile<float>& tile)
+void list_float(const RootGeometry<float>& geometry, Precision precision, bool any, RayTile<float>& tile)
 {
-    search_tile(geometry, primitives, precision, any, tile);
+    search_tile(geometry, precision, any, tile);
 }
-void list_double(const RootGeometry<double>& geometry, const PrimitiveList& primitives, Precision precision, bool any,
-                RayTile<double>& tile)
+void list_double(const RootGeometry<double>& geometry, Precision precision, bool any, RayTile<double>& tile)
 {
-    search_tile(geometry, primitives, precision, any, tile);
+    search_tile(geometry, precision, any, tile);
 }
 
 }  // namespace HWY_NAMESPACE
@@ -127,15 +124,13 @@ namespace firstray {
 HWY_EXPORT(list_float);
 HWY_EXPORT(list_double);
 
-void search_list(const RootGeometry<float>& geometry, const PrimitiveList& primitives, Precision precision, bool any,
-                 RayTile<float>& tile)
+void search_list(const RootGeometry<float>& geometry, Precision precision, bool any, RayTile<float>& tile)
 {
-    HWY_DYNAMIC_DISPATCH(list_float)(geometry, primitives, precision, any, tile);
+    HWY_DYNAMIC_DISPATCH(list_float)(geometry, precision, any, tile);
 }
-void search_list(const RootGeometry<double>& geometry, const PrimitiveList& primitives, Precision precision, bool any,
-                 RayTile<double>& tile)
+void search_list(const RootGeometry<double>& geometry, Precision precision, bool any, RayTile<double>& tile)
 {
-    HWY_DYNAMIC_DISPATCH(list_double)(geometry, primitives, precision, any, tile);
+    HWY_DYNAMIC_DISPATCH(list_double)(geometry, precision, any, tile);
 }
 
 }  // namespace firstray

@@ -5,10 +5,8 @@
 
 namespace firstray {
 
-/// Tests primitives of groups that are carried against all rays of a tile; any: the first hit found is enough.
-void search_list(const RootGeometry<float>& geometry, const PrimitiveList& primitives, Precision precision, bool any,
-                 RayTile<float>& tile);
-void search_list(const RootGeometry<double>& geometry, const PrimitiveList& primitives, Precision precision, bool any,
-                 RayTile<double>& tile);
+/// Tests all primitives against all rays of a tile; any: the first hit found is enough.
+void search_list(const RootGeometry<float>& geometry, Precision precision, bool any, RayTile<float>& tile);
+void search_list(const RootGeometry<double>& geometry, Precision precision, bool any, RayTile<double>& tile);
 
 }  // namespace firstray
