@@ -6,6 +6,7 @@
 #include "bench/peers/embree.h"
 #include "engine/strategy/grid.h"
 #include "engine/strategy/list.h"
+#include "lazy/calibrate.h"
 #include "lazy/lazy.h"
 #include "obb/obb.h"
 
@@ -17,7 +18,9 @@ using OwnWords = std::vector<std::pair<std::string, std::string>>;
 
 constexpr std::string_view obb_groups[] = {"dynamic", "all"}, obb_top[] = {"grid", "list"},
                            obb_hits[] = {"root", "local"}, obb_inside[] = {"auto", "grid", "list", "lazy"},
-                           lazy_top[] = {"groups", "primitives"};
+                           lazy_top[] = {"groups", "primitives"},
+                           list_or_grid[] = {"learned", "evidence", "always-grid", "always-list", "threshold=N"},
+                           costs[] = {"calibrated", "NAME=NS,..."};
 
 /// Position of the word that was chosen for a flag; 0 where none was.
 /// throws  std::invalid_argument for a word that is not one of the choice's
@@ -68,6 +71,34 @@ std::unique_ptr<Strategy<float>> make_peer(const Scene& scene, const StrategyOpt
 }
 #endif
 
+/// The word that was chosen for a flag with patterns, or null.
+const std::string* word_of(const OwnWords& own, std::string_view flag)
+{
+    for (const auto& [name, word] : own)
+        if (name == flag) return &word;
+    return nullptr;
+}
+
+void check_list_or_grid(const std::string& word)
+{
+    lazy::Rule rule;
+    lazy::set_choice(rule, word);
+}
+
+void check_costs(const std::string& word)
+{
+    lazy::replace_costs({}, word);
+}
+
+template <typename Real>
+std::unique_ptr<Strategy<Real>> make_adaptive(const Scene& scene, const StrategyOptions& options)
+{
+    lazy::Rule rule{.costs = lazy::calibrated_costs()};
+    if (const std::string* word = word_of(options.own, "list-or-grid")) lazy::set_choice(rule, *word);
+    if (const std::string* word = word_of(options.own, "costs")) rule.costs = lazy::replace_costs(rule.costs, *word);
+    return lazy::make_lazy<Real>(scene, options, {.rule = rule});
+}
+
 }  // namespace
 
 std::span<const StrategyEntry> strategies()
@@ -79,6 +110,8 @@ std::span<const StrategyEntry> strategies()
          &make_obb<double>},
         {"lazy", "a grid whose parts come into being when the first ray enters them", false, &make_lazy<float>,
          &make_lazy<double>},
+        {"adaptive", "as lazy, with lists where rays are too few for a grid to pay", false, &make_adaptive<float>,
+         &make_adaptive<double>},
 #ifdef FIRSTRAY_HAVE_EMBREE
         {"embree", "Embree 3, one tree of medium quality, built anew every frame", true,
          &make_peer<peers::make_embree_medium>},
@@ -95,14 +128,16 @@ std::span<const StrategyEntry> strategies()
 std::span<const OwnChoice> own_choices()
 {
     static constexpr OwnChoice table[] = {
-        {"obb-groups", obb_groups,
-         "boxes per dynamic transform, or per static one below too"},
-        {"obb-top", obb_top, "boxes in the scenery's grid, or in a list (the paper)"},
-        {"obb-hits", obb_hits, "decide hits in the root system, or the box's (the paper)"},
-        {"obb-inside", obb_inside, "what is in a box"},
-        {"lazy-top", lazy_top, "list what moves by groups, or all of it (the paper)"},
+        {"obb", "obb-groups", obb_groups, "boxes per dynamic transform, or per static one below too"},
+        {"obb", "obb-top", obb_top, "boxes in the scenery's grid, or in a list (the paper)"},
+        {"obb", "obb-hits", obb_hits, "decide hits in the root system, or the box's (the paper)"},
+        {"obb", "obb-inside", obb_inside, "what is in a box"},
+        {"lazy", "lazy-top", lazy_top, "list what moves by groups, or all of it (the paper)"},
+        {"adaptive", "list-or-grid", list_or_grid, "by last frame's rays and this one's, by these, ...",
+         &check_list_or_grid},
+        {"adaptive", "costs", costs, "what it counts with; see info --costs", &check_costs},
 #ifdef FIRSTRAY_HAVE_EMBREE
-        {"embree-rays", embree_rays, "rays with a common apex in packets, or one by one"},
+        {"embree", "embree-rays", embree_rays, "rays with a common apex in packets, or one by one"},
 #endif
     };
     return table;
@@ -110,8 +145,7 @@ std::span<const OwnChoice> own_choices()
 
 bool offers(std::string_view strategy, const OwnChoice& choice)
 {
-    const auto family = [](std::string_view name) { return name.substr(0, name.find('-')); };
-    return family(strategy) == family(choice.flag);
+    return strategy == choice.strategy || strategy.starts_with(std::string(choice.strategy) + "-");
 }
 
 const StrategyEntry* find_strategy(std::string_view name)

@@ -23,16 +23,19 @@ std::span<const StrategyEntry> strategies();
 
 /// A choice that one strategy alone offers, or a family of them; StrategyOptions::own takes its flag and one of its words.
 struct OwnChoice {
+    std::string_view strategy;                ///< its name, or what the family's names begin with: "embree"
     std::string_view flag;                    ///< without dashes, e.g. "obb-top"
     std::span<const std::string_view> words;  ///< the first is the default
     std::string_view summary;                 ///< for --help
+    /// Where words are patterns, e.g. "threshold=N": refuses what fits none with std::invalid_argument. Null: the words
+    /// are all there is.
+    void (*check)(const std::string& word) = nullptr;
 };
 
 /// All choices of all strategies.
 std::span<const OwnChoice> own_choices();
 
-/// Whether a strategy has this choice: names of strategies and flags begin with the family's, e.g. "embree-low" and
-/// "embree-rays".
+/// Whether a strategy has this choice.
 bool offers(std::string_view strategy, const OwnChoice& choice);
 
 /// The entry of that name, or null.

@@ -16,11 +16,12 @@ std::uint64_t guessed_bytes(std::size_t primitives)
 
 template <typename Real>
 GroupGrids<Real>::GroupGrids(const Scene& scene, const RootGeometry<Real>& geometry, const GridOptions& options,
-                             Ledger& ledger)
+                             Ledger& ledger, Chooser* chooser)
     : scene_(scene),
       geometry_(geometry),
       options_(options),
       ledger_(ledger),
+      chooser_(chooser),
       grids_(std::make_unique<MadeOnce<LazyGrid>[]>(scene.groups.size()))
 {
 }
@@ -32,9 +33,13 @@ GroupGrids<Real>::~GroupGrids()
 }
 
 template <typename Real>
-const LazyGrid* GroupGrids<Real>::enter_first(std::uint32_t group) const
+const LazyGrid* GroupGrids<Real>::enter_first(std::uint32_t group, std::uint64_t rays) const
 {
-    return grids_[group].get_or_make([&] { return make(group); });
+    const auto make_one = [&] { return grids_[group].get_or_make([&] { return make(group); }); };
+    if (!chooser_) return make_one();
+    const LazyGrid* const made = chooser_->enter(group, rays, chooser_->group(group), 0.0, make_one);
+    if (!made && is_carried_first(chooser_->rule().costs)) geometry_.touch(group);
+    return made;
 }
 
 template <typename Real>
@@ -50,7 +55,7 @@ std::unique_ptr<LazyGrid> GroupGrids<Real>::make(std::uint32_t group) const
         PrimitiveList primitives;
         geometry_.list(group, primitives);
         made = std::make_unique<LazyGrid>(make_entries(geometry_, primitives, nullptr), shape_of(primitives.size()),
-                                          ledger_, nullptr);
+                                          ledger_, nullptr, choice_in(group));
     } catch (const std::bad_alloc&) {
         ledger_.give_back(guess);
         return nullptr;
@@ -69,6 +74,14 @@ const LazyGrid& GroupGrids<Real>::gather(const PrimitiveList& primitives, const 
         ledger_.correct(0, grid->bytes());
         return grid;
     });
+}
+
+/// What is in the only voxel of a group is built with its grid.
+template <typename Real>
+VoxelChoice GroupGrids<Real>::choice_in(std::uint32_t group) const
+{
+    if (!chooser_ || chooser_->voxels_of(group).count == 0) return {};
+    return {chooser_, chooser_->voxels_of(group), false};
 }
 
 /// A group that would not be split as a voxel is one voxel: its packs have boxes, which are grid enough.

@@ -16,16 +16,21 @@ inline constexpr std::uint32_t everything_that_moves = 0;
 template <typename Real>
 class GroupGrids {
 public:
-    /// scene, geometry, ledger  must outlive this
-    GroupGrids(const Scene& scene, const RootGeometry<Real>& geometry, const GridOptions& options, Ledger& ledger);
+    /// scene, geometry, ledger, chooser  must outlive this
+    /// chooser  null: the first ray has a group's grid made
+    GroupGrids(const Scene& scene, const RootGeometry<Real>& geometry, const GridOptions& options, Ledger& ledger,
+               Chooser* chooser = nullptr);
     ~GroupGrids();
 
-    /// A group's grid, made now if it was not; null while another thread makes it, or where there is no memory for it:
-    /// then the group's primitives are to be tested one by one. Any number of threads.
-    const LazyGrid* grid(std::uint32_t group) const
+    /// A group's grid, made now if it was not; null while another thread makes it, where there is no memory for it, or
+    /// where a list is chosen: then the group's primitives are to be tested one by one. Any number of threads.
+    /// rays  that are about to search it
+    const LazyGrid* grid(std::uint32_t group, std::uint64_t rays = 1) const
     {
         const LazyGrid* made = grids_[group].get();
-        return made ? made : enter_first(group);
+        if (!made) return enter_first(group, rays);
+        if (chooser_) chooser_->count_gridded(group, rays);
+        return made;
     }
     /// The same, and nothing is made.
     const LazyGrid* made(std::uint32_t group) const { return grids_[group].get(); }
@@ -40,14 +45,16 @@ public:
     std::uint64_t drop(std::uint32_t group);
 
 private:
-    const LazyGrid* enter_first(std::uint32_t group) const;
+    const LazyGrid* enter_first(std::uint32_t group, std::uint64_t rays) const;
     std::unique_ptr<LazyGrid> make(std::uint32_t group) const;
+    VoxelChoice choice_in(std::uint32_t group) const;
     GridOptions shape_of(std::size_t primitives) const;
 
     const Scene& scene_;
     const RootGeometry<Real>& geometry_;
     GridOptions options_;
     Ledger& ledger_;
+    Chooser* chooser_;
     std::unique_ptr<MadeOnce<LazyGrid>[]> grids_;  ///< by group
 };
 

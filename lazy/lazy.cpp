@@ -4,9 +4,11 @@
 #include <cmath>
 
 #include "engine/grid/boxed_grid.h"
+#include "engine/grid/search.h"
 #include "engine/strategy/group_bounds.h"
 #include "lazy/group_grids.h"
 #include "lazy/lazy_grid.h"
+#include "lazy/scenery.h"
 #include "lazy/search.h"
 
 namespace firstray::lazy {
@@ -23,7 +25,9 @@ public:
           bounds_(group_bounds(scene)),
           geometry_(scene),
           ledger_(options.structure_budget),
-          groups_(scene, geometry_, shape_, ledger_)
+          chooser_(own.rule ? std::make_unique<Chooser>(scene, *own.rule, shape_.max_list) : nullptr),
+          groups_(scene, geometry_, shape_, ledger_, chooser_.get()),
+          scenery_(scene, geometry_, bounds_, shape_, ledger_, chooser_.get())
     {
     }
 
@@ -31,33 +35,33 @@ public:
     {
         geometry_.update_on_touch(pose);
         ledger_.begin_frame();
-        dropped_ = regridded_ = 0;
-        if (!is_built_) build_scenery();
+        dropped_ = 0;
+        if (chooser_) begin_choices();
+        regridded_ = scenery_.update(options_.executor);
         const bool moved = drop_moved();
         if (own_.top == LazyTop::groups)
             place_groups(pose);
         else if (moved)
             place_primitives(pose);
-        kept_ = scenery_ ? scenery_->keep() : 0;
+        kept_ = scenery_.made() ? scenery_.made_alone()->grid.keep() : 0;
         for (const std::uint32_t item : there_) kept_ += groups_.keep(item);
     }
-    void closest(RayTile<Real>& rays) const override { search_closest(target(), rays); }
-    void occluded(RayTile<Real>& rays) const override { search_any(target(), rays); }
+    void closest(RayTile<Real>& rays) const override { search(rays, false); }
+    void occluded(RayTile<Real>& rays) const override { search(rays, true); }
     StructureReport report() const override;
     std::vector<StructureBox> outline() const override;
 
 private:
-    SearchTarget<Real> target() const
-    {
-        return {&scene_,        &geometry_, options_.precision,
-                scenery_.get(), &around_,   outer_.voxels.empty() ? nullptr : &outer_,
-                &groups_};
-    }
-    void build_scenery();
+    using MadeScenery = typename Scenery<Real>::Made;
+
+    void search(RayTile<Real>& rays, bool any) const;
+    void search_grids(const MadeScenery* scenery, RayTile<Real>& rays, bool any) const;
+    void search_lists(RayTile<Real>& rays, bool any) const;
+    void begin_choices();
+    ChoiceReport choices() const;
     bool drop_moved();
     void place_groups(const Pose& pose);
     void place_primitives(const Pose& pose);
-    void place(std::span<const Item> items);
 
     const Scene& scene_;
     StrategyOptions options_;
@@ -66,25 +70,64 @@ private:
     std::vector<DAabb> bounds_;  ///< by group, in their nodes' systems
     RootGeometry<Real> geometry_;
     Ledger ledger_;
+    std::unique_ptr<Chooser> chooser_;  ///< null: the first ray has built what it enters
     GroupGrids<Real> groups_;
-    bool is_built_ = false;
-    std::unique_ptr<LazyGrid> scenery_;  ///< null where nothing is static
-    BoxedGrid around_;                   ///< the scenery's top grid, with boxes of groups in it
-    BoxedGrid outer_;
+    Scenery<Real> scenery_;
     std::vector<std::uint32_t> there_;  ///< numbers of the items in this frame
     std::uint64_t kept_ = 0, dropped_ = 0, moving_ = 0, regridded_ = 0;
 };
 
 template <typename Real>
-void LazyStrategy<Real>::build_scenery()
+void LazyStrategy<Real>::search(RayTile<Real>& rays, bool any) const
 {
-    is_built_ = true;
-    if (scene_.groups[0].primitives() == 0) return;
-    scenery_ =
-        std::make_unique<LazyGrid>(scenery_entries(geometry_, room_of_movers(scene_, bounds_), options_.executor),
-                                   shape_, ledger_, options_.executor);
-    around_.structure = scenery_->top();
-    regridded_ = scene_.groups[0].primitives();
+    const MadeScenery* const scenery = scenery_.enter(static_cast<std::uint64_t>(rays.count));
+    if (scenery || scenery_.is_empty())
+        search_grids(scenery, rays, any);
+    else
+        search_lists(rays, any);
+}
+
+template <typename Real>
+void LazyStrategy<Real>::search_grids(const MadeScenery* scenery, RayTile<Real>& rays, bool any) const
+{
+    const BoxedGrid& outer = scenery_.outer(scenery);
+    const SearchTarget<Real> target{&scene_,
+                                    &geometry_,
+                                    options_.precision,
+                                    scenery ? &scenery->grid : nullptr,
+                                    scenery ? &scenery->around : nullptr,
+                                    outer.voxels.empty() ? nullptr : &outer,
+                                    &groups_};
+    any ? search_any(target, rays) : search_closest(target, rays);
+}
+
+/// Tests the scenery first, so that what it hides is not even entered: with hits as open ends of the rays. A hit at the
+/// same t in a group counts less, since the scenery's ids are the smallest.
+template <typename Real>
+void LazyStrategy<Real>::search_lists(RayTile<Real>& rays, bool any) const
+{
+    const firstray::SearchTarget<Real> target{&scenery_.flat_list(), &geometry_, options_.precision};
+    any ? firstray::search_any(target, rays) : firstray::search_closest(target, rays);
+    if (scenery_.outer(nullptr).voxels.empty()) return;
+    const auto rest = std::make_unique<RayTile<Real>>(rays);
+    const auto count = static_cast<std::size_t>(rays.count);
+    for (std::size_t i = 0; any && i < count; ++i)
+        if (rays.primitive[i] != no_primitive) rest->t_max[i] = rest->t_min[i];  // is done
+    search_grids(nullptr, *rest, any);
+    for (std::size_t i = 0; i < count; ++i) {
+        if (rest->primitive[i] == no_primitive) continue;
+        rays.t_max[i] = rest->t_max[i];
+        rays.primitive[i] = rest->primitive[i];
+        rays.u[i] = rest->u[i];
+        rays.v[i] = rest->v[i];
+    }
+}
+
+template <typename Real>
+void LazyStrategy<Real>::begin_choices()
+{
+    for (std::uint32_t group = 0; group < scene_.groups.size(); ++group)
+        chooser_->begin_frame(group, group > 0 && geometry_.has_moved(group));
 }
 
 /// Gives up what was built of groups that stand otherwise now; returns whether there are any.
@@ -106,7 +149,7 @@ template <typename Real>
 void LazyStrategy<Real>::place_groups(const Pose& pose)
 {
     there_.clear();
-    double largest = static_cast<double>(around_.structure.largest);
+    double largest = scenery_.largest();
     for (std::uint32_t group = 1; group < scene_.groups.size(); ++group) {
         if (!pose.is_visible(scene_.groups[group]) || bounds_[group].empty()) continue;
         there_.push_back(group);
@@ -119,7 +162,7 @@ void LazyStrategy<Real>::place_groups(const Pose& pose)
         const Transform& root_from_node = pose.root_from_node[scene_.groups[group].node];
         items.push_back(make_item(group, inverse(root_from_node), root_from_node, bounds_[group], wide));
     }
-    place(items);
+    scenery_.place(std::move(items));
 }
 
 /// Carries everything that moves and lists it in one grid.
@@ -141,16 +184,10 @@ void LazyStrategy<Real>::place_primitives(const Pose& pose)
         const LazyGrid& grid = groups_.gather(primitives, options_.executor);
         const GridStructure& top = grid.top();
         const DAabb box{top.grids[0].lo, top.grids[0].hi()};
-        const double largest = static_cast<double>(std::max(top.largest, around_.structure.largest));
+        const double largest = std::max(static_cast<double>(top.largest), scenery_.largest());
         items.push_back(make_item(everything_that_moves, {}, {}, box, largest * static_cast<double>(box_pad_factor)));
     }
-    place(items);
-}
-
-template <typename Real>
-void LazyStrategy<Real>::place(std::span<const Item> items)
-{
-    outer_ = place_items(scenery_ ? &around_ : nullptr, items, false);
+    scenery_.place(std::move(items));
 }
 
 template <typename Real>
@@ -175,7 +212,7 @@ StructureReport LazyStrategy<Real>::report() const
             }
         }
     };
-    if (scenery_) add(*scenery_);
+    if (const MadeScenery* scenery = scenery_.made()) add(scenery->grid);
     report.primitives = scene_.groups[0].primitives();
     for (const std::uint32_t group : there_) {
         report.primitives += group == everything_that_moves ? moving_ : scene_.groups[group].primitives();
@@ -186,9 +223,23 @@ StructureReport LazyStrategy<Real>::report() const
     report.regridded = regridded_;
     report.refused_builds = ledger_.refused();
     report.lazy_build_ms = ledger_.milliseconds();
-    report.bytes =
-        geometry_.bytes() + ledger_.bytes() + around_.bytes() + outer_.bytes() + (scenery_ ? scenery_->bytes() : 0);
+    if (chooser_) report.choices = choices();
+    report.bytes = geometry_.bytes() + ledger_.bytes() + scenery_.bytes() + (chooser_ ? chooser_->bytes() : 0);
     report.peak_bytes = report.bytes;
+    return report;
+}
+
+template <typename Real>
+ChoiceReport LazyStrategy<Real>::choices() const
+{
+    ChoiceReport report{.is_made = true};
+    const auto add = [&](std::uint32_t group, const LazyGrid* grid) {
+        chooser_->report(group, group == 0 ? scenery_.alternatives() : chooser_->group(group), grid != nullptr, report);
+        if (grid && chooser_->voxels_of(group).count > 0) grid->report_choices(report);
+    };
+    const MadeScenery* const scenery = scenery_.made();
+    if (!scenery_.is_empty()) add(0, scenery ? &scenery->grid : nullptr);
+    for (const std::uint32_t group : there_) add(group, groups_.made(group));
     return report;
 }
 
@@ -197,7 +248,8 @@ template <typename Real>
 std::vector<StructureBox> LazyStrategy<Real>::outline() const
 {
     std::vector<StructureBox> out;
-    if (scenery_) scenery_->append_outline({.name = "scenery", .primitives = scene_.groups[0].primitives()}, out);
+    if (const MadeScenery* scenery = scenery_.made())
+        scenery->grid.append_outline({.name = "scenery", .primitives = scene_.groups[0].primitives()}, out);
     for (const std::uint32_t item : there_) {
         const LazyGrid* grid = groups_.made(item);
         if (!grid) continue;

@@ -1,5 +1,6 @@
 #include "lazy/lazy_grid.h"
 
+#include <algorithm>
 #include <chrono>
 #include <new>
 
@@ -14,13 +15,18 @@ std::uint64_t guessed_bytes(std::size_t listed)
 
 }  // namespace
 
-LazyGrid::LazyGrid(GridEntries entries, const GridOptions& options, Ledger& ledger, const Executor* executor)
+LazyGrid::LazyGrid(GridEntries entries, const GridOptions& options, Ledger& ledger, const Executor* executor,
+                   const VoxelChoice& choice)
     : options_(options),
       entries_(std::move(entries)),
       top_(build_top(entries_, options, executor)),
       voxels_(std::make_unique<MadeOnce<GridStructure>[]>(top_.structure.cells.size())),
+      choice_(choice),
       ledger_(ledger)
 {
+    if (choice_.chooser)
+        for (std::uint32_t cell = 0; cell < top_.structure.cells.size(); ++cell)
+            filled_ += listed(cell).empty() ? 0.0 : 1.0;
     held_ = entries_.bytes() + top_.structure.bytes() + top_.lists.bytes() +
             top_.structure.cells.size() * sizeof(MadeOnce<GridStructure>);
 }
@@ -31,9 +37,13 @@ LazyGrid::~LazyGrid()
         if (const GridStructure* built = voxels_[cell].get()) ledger_.give_back(built->bytes() + sizeof *built);
 }
 
-const GridStructure* LazyGrid::enter_first(std::uint32_t cell) const
+const GridStructure* LazyGrid::enter_first(std::uint32_t cell, std::uint64_t rays) const
 {
-    return voxels_[cell].get_or_make([&] { return build(cell); });
+    const auto make = [&] { return voxels_[cell].get_or_make([&] { return build(cell); }); };
+    if (!choice_.chooser) return make();
+    const Alternatives alternatives = voxel_alternatives(choice_.chooser->rule().costs, listed(cell).size());
+    const double expected = choice_.is_scenery ? choice_.chooser->expected_in_voxel(filled_) : 0.0;
+    return choice_.chooser->enter(choice_.places.of(cell), rays, alternatives, expected, make);
 }
 
 std::unique_ptr<GridStructure> LazyGrid::build(std::uint32_t cell) const
@@ -62,6 +72,17 @@ VoxelCounts LazyGrid::counts() const
         counts.built += voxels_[cell].get() != nullptr;
     }
     return counts;
+}
+
+/// Of voxels that share a place the first stands for all.
+void LazyGrid::report_choices(ChoiceReport& report) const
+{
+    const auto cells = static_cast<std::uint32_t>(top_.structure.cells.size());
+    for (std::uint32_t cell = 0; cell < std::min(cells, choice_.places.count); ++cell) {
+        if (listed(cell).empty()) continue;
+        const Alternatives alternatives = voxel_alternatives(choice_.chooser->rule().costs, listed(cell).size());
+        choice_.chooser->report(choice_.places.of(cell), alternatives, built(cell) != nullptr, report);
+    }
 }
 
 std::uint64_t LazyGrid::keep()

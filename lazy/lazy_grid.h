@@ -4,13 +4,21 @@
 #include <span>
 #include <vector>
 
+#include "engine/core/made_once.h"
 #include "engine/grid/build.h"
 #include "engine/grid/entries.h"
 #include "engine/strategy/outline.h"
+#include "lazy/chooser.h"
 #include "lazy/ledger.h"
-#include "engine/core/made_once.h"
 
 namespace firstray::lazy {
+
+/// Who chooses which voxels of a grid are built, and where it counts their rays.
+struct VoxelChoice {
+    Chooser* chooser = nullptr;  ///< null: the first ray has a voxel built
+    Chooser::Range places{};
+    bool is_scenery = false;  ///< voxels expect what other voxels have had
+};
 
 /// How much of a lazy grid there is.
 struct VoxelCounts {
@@ -26,20 +34,22 @@ struct VoxelCounts {
 class LazyGrid {
 public:
     /// entries  in the root system
-    /// ledger   must outlive the grid
-    LazyGrid(GridEntries entries, const GridOptions& options, Ledger& ledger, const Executor* executor);
+    /// ledger   must outlive the grid, so must the chooser
+    LazyGrid(GridEntries entries, const GridOptions& options, Ledger& ledger, const Executor* executor,
+             const VoxelChoice& choice = {});
     ~LazyGrid();
 
     const GridStructure& top() const { return top_.structure; }
     const GridEntries& entries() const { return entries_; }
     std::span<const std::uint32_t> listed(std::uint32_t cell) const { return top_.lists.of(cell); }
 
-    /// What is in a cell that lists anything, built now if it was not; null while another thread builds it, or where
-    /// there is no memory for it: then listed() is to be searched. Any number of threads.
-    const GridStructure* voxel(std::uint32_t cell) const
+    /// What is in a cell that lists anything, built now if it was not; null while another thread builds it, where there
+    /// is no memory for it, or where a list is chosen: then listed() is to be searched. Any number of threads.
+    /// rays  that are about to search it
+    const GridStructure* voxel(std::uint32_t cell, std::uint64_t rays = 1) const
     {
         const GridStructure* built = voxels_[cell].get();
-        return built ? built : enter_first(cell);
+        return built ? built : enter_first(cell, rays);
     }
     /// The same, and nothing is built.
     const GridStructure* built(std::uint32_t cell) const { return voxels_[cell].get(); }
@@ -53,10 +63,12 @@ public:
     /// Appends the grid as it stands, what is built and what is not, without what is inside voxels.
     /// heading  its kind, name, level and primitives are kept, the rest is filled in
     void append_outline(StructureBox heading, std::vector<StructureBox>& out) const;
+    /// What was chosen for the voxels; a chooser is there.
+    void report_choices(ChoiceReport& report) const;
     std::uint64_t bytes() const { return held_; }  ///< without voxels
 
 private:
-    const GridStructure* enter_first(std::uint32_t cell) const;
+    const GridStructure* enter_first(std::uint32_t cell, std::uint64_t rays) const;
     std::unique_ptr<GridStructure> build(std::uint32_t cell) const;
 
     GridOptions options_;
@@ -64,6 +76,8 @@ private:
     TopGrid top_;
     std::unique_ptr<MadeOnce<GridStructure>[]> voxels_;  ///< by cell
     std::vector<std::uint8_t> kept_;  ///< by cell: built before the last keep(); empty before the first
+    VoxelChoice choice_;
+    double filled_ = 0.0;  ///< voxels that list anything; counted where they are chosen among
     Ledger& ledger_;
     std::uint64_t held_ = 0;
 };

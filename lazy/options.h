@@ -1,5 +1,8 @@
 #pragma once
 #include <cstdint>
+#include <optional>
+
+#include "lazy/rule.h"
 
 namespace firstray::lazy {
 
@@ -12,6 +15,8 @@ enum class LazyTop : std::uint8_t {
 /// What the user chooses about lazy building.
 struct Options {
     LazyTop top = LazyTop::groups;
+    /// Chooses between lists and grids; only with LazyTop::groups. None: the first ray has built what it enters.
+    std::optional<Rule> rule{};
 };
 
 }  // namespace firstray::lazy

@@ -80,6 +80,12 @@ struct LazySearch : Search<Quest, RootPrimitives<typename Quest::Real>> {
     }
 };
 
+/// How many single rays' searches of a list, roughly, that of a beam takes: most of it is done once for all packets.
+inline std::uint64_t rays_worth(PacketMask packets)
+{
+    return 2 + static_cast<std::uint64_t>(__builtin_popcountll(packets));
+}
+
 /// The same for beams.
 template <class BeamQuest>
 struct LazyBeamSearch : BeamSearch<BeamQuest, BeamRootPrimitives> {
@@ -98,7 +104,7 @@ struct LazyBeamSearch : BeamSearch<BeamQuest, BeamRootPrimitives> {
         if (HWY_UNLIKELY(!built)) {
             const Aabb box = cell_box(grid->top().grids[0], voxel.cell);
             if (!any_ray_meets(this->quest.rays, packets, box.lo, box.hi, 4.0f * this->wide)) return;
-            built = grid->voxel(voxel.cell);
+            built = grid->voxel(voxel.cell, rays_worth(packets));
             if (!built) return unbuilt(voxel.cell, packets);
         }
         this->structure = built;
@@ -182,16 +188,36 @@ struct BeamWorld {
     template <class BeamQuest>
     HWY_NOINLINE void enter_beam(std::uint32_t group, BeamQuest& quest, PacketMask packets) const
     {
-        const LazyGrid* grid = target.groups->grid(group);
-        if (HWY_UNLIKELY(!grid)) {
-            const World<float> world{target};
-            return quest.each_ray(packets, quest.root, [&](auto& single) { world.enter(group, single); });
-        }
         const BeamRootPrimitives primitives{*target.geometry};
+        const LazyGrid* grid = target.groups->grid(group, rays_worth(packets));
+        if (HWY_UNLIKELY(!grid)) return without_grid(group, quest, packets, primitives);
         LazyBeamSearch<BeamQuest> search(quest, primitives, grid->top(), grid);
         search.begin();
         search.list(grid->top().large, packets);
         walk_slices(grid->top().grids[0], quest.root, packets, search.wide, LazyResolver(grid->top()), search);
+    }
+
+    /// Tests what is in a group, sixteen at a time, whether it is carried or not.
+    template <class BeamQuest>
+    HWY_NOINLINE void without_grid(std::uint32_t group, BeamQuest& quest, PacketMask packets,
+                                   const BeamRootPrimitives& primitives) const
+    {
+        static const GridStructure none_at_all;
+        BeamSearch<BeamQuest, BeamRootPrimitives> search{
+            quest, quest.root, primitives, &none_at_all, quest.precision == Precision::fast ? 1.0f : 0.0f};
+        search.wide = std::numeric_limits<float>::infinity();  // no depth is known here to be beyond anything
+        const Group& g = target.scene->groups[group];
+        PackOfPieces pack;
+        for (PrimitiveId id = g.first; id < g.first + g.primitives(); ++id) {
+            if (id - g.first >= g.triangles) {
+                search.quadric(target.geometry->quadric_alone(group, id), packets);
+                continue;
+            }
+            pack.add(target.geometry->triangle_alone(group, id),
+                     id | (target.geometry->transmits(id) ? transmitting_bit : 0));
+            if (pack.is_full()) search.pack(pack.take(), packets);
+        }
+        if (!pack.is_empty()) search.pack(pack.take(), packets);
     }
 };
 

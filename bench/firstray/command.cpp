@@ -41,10 +41,10 @@ void add_int(CLI::App& app, const char* name, int& target, int low, int high, co
     add(app, name, target, "N", text)->check(CLI::Range(low, high));
 }
 
-void add_scene(CLI::App& app, SceneChoice& scene)
+CLI::Option* add_scene(CLI::App& app, SceneChoice& scene)
 {
-    add(app, "SCENE", scene.file, " ", "scene file (.aff)")->required();
     app.add_flag("--allow-outside", scene.allow_outside, "let includes and textures lie outside the scene's folder");
+    return add(app, "SCENE", scene.file, " ", "scene file (.aff)")->required();
 }
 
 void add_search(CLI::App& app, SearchChoice& search)
@@ -59,10 +59,15 @@ void add_search(CLI::App& app, SearchChoice& search)
     add_int(app, "--grid-depth", search.grid_depth, 1, 8,
             "levels of grids; default " + std::to_string(search.grid_depth));
     add(app, "--structure-budget", search.structure_budget, "BYTES",
-        "most that lazy may build while rays fly, and hold; default 0, no limit");
-    for (const OwnChoice& own : own_choices())
-        add(app, "--" + std::string(own.flag), search.own[std::string(own.flag)], "NAME",
-            list_of(own.words) + ": " + std::string(own.summary) + "; default " + std::string(own.words[0]));
+        "most that lazy or adaptive may build while rays fly; default 0, no limit");
+    for (const OwnChoice& own : own_choices()) {
+        const std::string flag = "--" + std::string(own.flag);
+        if (app.get_option_no_throw(flag)) continue;  // info has it already, and asks with it too
+        CLI::Option* option =
+            add(app, flag, search.own[std::string(own.flag)], "NAME",
+                list_of(own.words) + ": " + std::string(own.summary) + "; default " + std::string(own.words[0]));
+        if (own.flag == "costs") option->group("");  // one screen is enough: info tells of it
+    }
 }
 
 void add_render(CLI::App& app, RenderJob& job)
@@ -85,8 +90,9 @@ void add_render(CLI::App& app, RenderJob& job)
 
 void add_info(CLI::App& app, InfoJob& job)
 {
-    add_scene(app, job.scene);
+    add_scene(app, job.scene)->required(false);
     app.add_flag("--json", job.json, "print JSON");
+    app.add_flag("--costs", job.costs, "tell what adaptive counts with; --costs=NAME=NS,... sets some, of render and trace too");
     CLI::Option* structure = app.add_flag("--structure", job.structure, "also tell of the boxes and grids of a frame");
     const std::size_t others = app.get_options().size();
     add_int(app, "--frame", job.frame, 0, std::numeric_limits<int>::max(), "the scene's frame, from 0; default 0");
@@ -179,7 +185,11 @@ void dispatch(std::span<const std::string> arguments, Streams streams)
     refuse_extras(app);
     refuse_extras(command);
     if (command.get_name() == "render") return render_scene(render, streams);
-    if (command.get_name() == "info") return print_info(info, streams);
+    if (command.get_name() == "info") {
+        if (info.costs.empty() || info.structure) require(command, "SCENE");
+        if (info.replaces_costs()) info.search.own["costs"] = info.costs;
+        return print_info(info, streams);
+    }
     require(command, "--frame");
     require(command, "--rays");
     trace_rays(trace, streams);

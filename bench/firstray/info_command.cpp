@@ -7,7 +7,9 @@
 #include "bench/firstray/search.h"
 #include "bench/firstray/stats.h"
 #include "bench/firstray/structure_table.h"
+#include "bench/firstray/words.h"
 #include "engine/image/image.h"
+#include "lazy/calibrate.h"
 
 namespace firstray::command {
 namespace {
@@ -166,19 +168,57 @@ std::string structure_rows(const Json& info)
            structure_table(info["structure"]);
 }
 
+Json describe_costs(const lazy::Costs& costs)
+{
+    Json list = Json::object();
+    for (const lazy::CostName& name : lazy::cost_names()) list[std::string(name.name)] = costs.*name.cost;
+    return list;
+}
+
+std::string cost_rows(const Json& costs)
+{
+    std::string text;
+    for (const lazy::CostName& name : lazy::cost_names())
+        text +=
+            row(text.empty() ? "costs" : "", fmt::format("{:<10} {:>8.1f} ns  {}", name.name,
+                                                         costs[std::string(name.name)].get<double>(), name.meaning));
+    return text;
+}
+
+/// What adaptive counts with on this machine, unless the user says otherwise.
+lazy::Costs costs_of(const InfoJob& job)
+{
+    try {
+        return job.replaces_costs() ? lazy::replace_costs(lazy::calibrated_costs(), job.costs)
+                                    : lazy::calibrated_costs();
+    } catch (const std::invalid_argument& error) {
+        throw UsageError(fmt::format("--costs: {}", error.what()));
+    }
+}
+
+Json describe_scene(const InfoJob& job)
+{
+    const Scene scene = read_scene(job.scene);
+    check_frame(job.frame, scene.frames);
+    Json info = describe(scene, image::read_textures(scene, {.allow_outside = job.scene.allow_outside}));
+    if (job.structure) add_structure(job, scene, info);
+    return info;
+}
+
 }  // namespace
 
 void print_info(const InfoJob& job, Streams streams)
 {
     if (job.structure) check_search(job.search);
-    const Scene scene = read_scene(job.scene);
-    check_frame(job.frame, scene.frames);
-    Json info = describe(scene, image::read_textures(scene, {.allow_outside = job.scene.allow_outside}));
-    if (job.structure) add_structure(job, scene, info);
-    if (job.json)
+    const Json costs = job.costs.empty() ? Json() : describe_costs(costs_of(job));
+    Json info = job.scene.file.empty() ? Json::object() : describe_scene(job);
+    if (!costs.is_null()) info["costs"] = costs;
+    if (job.json) {
         streams.out << info.dump(2) << "\n";
-    else
-        streams.out << table(info) << (job.structure ? structure_rows(info) : "");
+        return;
+    }
+    if (!job.scene.file.empty()) streams.out << table(info) << (job.structure ? structure_rows(info) : "");
+    if (!costs.is_null()) streams.out << cost_rows(costs);
 }
 
 }  // namespace firstray::command

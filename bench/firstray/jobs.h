@@ -47,6 +47,9 @@ struct InfoJob {
     bool structure = false;  ///< also tell of the structure, which the others choose
     SearchChoice search;
     int frame = 0;
+    std::string costs;  ///< not empty: tell what adaptive counts with; the flag alone is "true"
+
+    bool replaces_costs() const { return !costs.empty() && costs != "true"; }
 };
 
 struct TraceJob {

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <stdexcept>
 #include <vector>
 
 #include "bench/firstray/words.h"
@@ -29,6 +30,20 @@ const StrategyEntry& parse_strategy(std::string_view word)
     return strategies()[find_word("--strategy", word, known_strategies())];
 }
 
+void check_word(const OwnChoice& own, const std::string& word)
+{
+    const std::string flag = "--" + std::string(own.flag);
+    if (!own.check) {
+        find_word(flag, word, own.words);
+        return;
+    }
+    try {
+        own.check(word);
+    } catch (const std::invalid_argument& error) {
+        throw UsageError(flag + ": " + error.what());
+    }
+}
+
 }  // namespace
 
 std::string strategy_names()
@@ -45,13 +60,12 @@ void check_search(const SearchChoice& choice)
                                      in_double ? "fast or robust" : "double"));
     for (const OwnChoice& own : own_choices())
         if (const auto word = choice.own.find(own.flag); word != choice.own.end() && !word->second.empty()) {
-            find_word("--" + word->first, word->second, own.words);
+            check_word(own, word->second);
             if (!offers(entry.name, own))
-                throw UsageError(fmt::format("--{} is for --strategy {}, not {}", own.flag,
-                                             own.flag.substr(0, own.flag.find('-')), entry.name));
+                throw UsageError(fmt::format("--{} is for --strategy {}, not {}", own.flag, own.strategy, entry.name));
         }
-    if (choice.structure_budget > 0 && entry.name != "lazy")
-        throw UsageError(fmt::format("--structure-budget is for --strategy lazy, not {}", entry.name));
+    if (choice.structure_budget > 0 && entry.name != "lazy" && entry.name != "adaptive")
+        throw UsageError(fmt::format("--structure-budget is for --strategy lazy or adaptive, not {}", entry.name));
 }
 
 Json own_choices_of(const SearchChoice& choice)

@@ -52,11 +52,21 @@ Json to_json(const StructureReport& report)
             {"refused_builds", report.refused_builds}};
 }
 
+Json to_json(const ChoiceReport& choices)
+{
+    return {{"lists", choices.lists},
+            {"grids", choices.grids},
+            {"not_entered", choices.not_entered},
+            {"spent_ms", choices.spent_ms},
+            {"hindsight_ms", choices.hindsight_ms},
+            {"ratio", choices.ratio()}};
+}
+
 }  // namespace
 
 Json to_json(const FrameStats& stats)
 {
-    return {{"frame", stats.frame},
+    Json json = {{"frame", stats.frame},
             {"time", stats.time},
             {"pose_ms", stats.pose_ms},
             {"update_ms", stats.update_ms},
@@ -66,6 +76,8 @@ Json to_json(const FrameStats& stats)
             {"rays", to_json(stats.rays)},
             {"structure", to_json(stats.structure)},
             {"image_hash", fmt::format("{:016x}", stats.image_hash)}};
+    if (stats.structure.choices.is_made) json["adaptive"] = to_json(stats.structure.choices);
+    return json;
 }
 
 Json describe_machine()

@@ -3,12 +3,11 @@
 // Every benchmark line shows the rounds of the scene's measurement: nothing is measured twice.
 #include <benchmark/benchmark.h>
 
-#include <charconv>
-#include <cstdlib>
 #include <filesystem>
 #include <iostream>
 #include <optional>
 
+#include "bench/micro/flags.h"
 #include "bench/micro/summary.h"
 #include "engine/aff/reader.h"
 #include "engine/core/errors.h"
@@ -33,59 +32,11 @@ constexpr const char* usage =
 
 constexpr std::string_view best = "best";
 
-struct NamedScene {
-    std::string name;
-    std::filesystem::path file;
-};
-
 struct Settings {
     MeasurePlan plan;
     std::string base = "embree";
     std::vector<NamedScene> scenes;
 };
-
-[[noreturn]] void refuse(const std::string& message)
-{
-    throw Error(Fault::usage, message + "\n" + usage);
-}
-
-const StrategyEntry* entry_of(std::string_view name)
-{
-    const StrategyEntry* entry = find_strategy(name);
-    if (!entry || !entry->make) refuse("no strategy of single precision is named " + std::string(name));
-    return entry;
-}
-
-int whole_number(std::string_view flag, std::string_view text)
-{
-    int value = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc() || end != text.data() + text.size() || value < 1)
-        refuse(std::string(flag) + " takes a whole number >= 1");
-    return value;
-}
-
-std::vector<std::string_view> split(std::string_view text, char separator)
-{
-    std::vector<std::string_view> pieces;
-    for (std::size_t end; (end = text.find(separator)) != text.npos; text.remove_prefix(end + 1))
-        pieces.push_back(text.substr(0, end));
-    pieces.push_back(text);
-    return pieces;
-}
-
-/// A strategy's name, and its own choices behind it: NAME+FLAG=WORD+FLAG=WORD.
-Contestant contestant_of(std::string_view text)
-{
-    const auto pieces = split(text, '+');
-    Contestant contestant{std::string(text), entry_of(pieces[0]), {}};
-    for (std::size_t i = 1; i < pieces.size(); ++i) {
-        const auto sides = split(pieces[i], '=');
-        if (sides.size() != 2) refuse("expected FLAG=WORD in " + std::string(text));
-        contestant.own.emplace_back(sides[0], sides[1]);
-    }
-    return contestant;
-}
 
 void apply_size(std::string_view value, MeasurePlan& plan)
 {
@@ -154,22 +105,6 @@ bool apply(std::string_view flag, std::string_view value, Settings& settings)
     return true;
 }
 
-/// BART's scenes that are there; says on stderr which are not.
-std::vector<NamedScene> bart_scenes()
-{
-    constexpr std::pair<const char*, const char*> scenes[] = {
-        {"robots", "robots/Robot.aff"}, {"kitchen", "kitchen/kitchen.aff"}, {"museum", "museum/museum5.aff"}};
-    const char* variable = std::getenv("FIRSTRAY_BART_DIR");
-    const std::filesystem::path folder = variable && *variable ? variable : FIRSTRAY_BART_DIR;
-    std::vector<NamedScene> found;
-    for (const auto& [name, file] : scenes)
-        if (std::filesystem::exists(folder / file))
-            found.push_back({name, folder / file});
-        else
-            std::cerr << "trace_bench: skipped " << name << ": no file " << (folder / file).string() << "\n";
-    return found;
-}
-
 void fill_defaults(Settings& settings)
 {
     MeasurePlan& plan = settings.plan;
@@ -181,7 +116,7 @@ void fill_defaults(Settings& settings)
     }
     if (plan.contestants.empty()) refuse("no strategy to measure");
     if (!plan.reference) plan.reference = plan.contestants.front().entry;
-    if (settings.scenes.empty()) settings.scenes = bart_scenes();
+    if (settings.scenes.empty()) settings.scenes = bart_scenes("trace_bench");
 }
 
 /// Takes our flags out of the command line and leaves Google Benchmark's.
@@ -317,6 +252,7 @@ int main(int argc, char** argv)
         return firstray::run_all(argc, argv);
     } catch (const firstray::Error& error) {
         std::cerr << "trace_bench: " << error.what() << "\n";
+        if (error.fault() == firstray::Fault::usage) std::cerr << firstray::usage;
         return static_cast<int>(error.fault());
     }
 }

@@ -13,6 +13,17 @@
 
 namespace firstray {
 
+/// What a strategy that chooses between lists and grids, place by place, has chosen; what that took by its own model,
+/// and what the best choice in hindsight would have. A place counts from when it came to be: what moves, since the
+/// update; what stands, since the first.
+struct ChoiceReport {
+    bool is_made = false;  ///< the strategy chooses
+    std::uint64_t lists = 0, grids = 0, not_entered = 0;  ///< places
+    double spent_ms = 0.0, hindsight_ms = 0.0;            ///< summed over threads
+
+    double ratio() const { return hindsight_ms > 0.0 ? spent_ms / hindsight_ms : 1.0; }
+};
+
 /// What a structure consists of and what it took. Counts are totals after update, lazily built parts included.
 struct StructureReport {
     std::uint64_t grids = 0;     ///< top grids and supergrids
@@ -31,6 +42,7 @@ struct StructureReport {
     std::uint64_t largest_list = 0;
     std::uint64_t regridded = 0;  ///< primitives that the last update put into grids
     double lazy_build_ms = 0.0;   ///< spent building while rays flew, summed over threads, since update
+    ChoiceReport choices;
 };
 
 /// A way to find hits in an animated scene. update() runs alone; between two updates any number of threads may search.

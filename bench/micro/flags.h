@@ -1,0 +1,31 @@
+#pragma once
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "bench/micro/measurement.h"
+
+namespace firstray {
+
+// What the benchmarks' command lines have in common. Each throws Error, Fault::usage, for what it cannot take.
+
+struct NamedScene {
+    std::string name;
+    std::filesystem::path file;
+};
+
+[[noreturn]] void refuse(const std::string& message);
+std::vector<std::string_view> split(std::string_view text, char separator);
+/// A number >= 1.
+int whole_number(std::string_view flag, std::string_view text);
+
+/// The strategy of that name, of single precision.
+const StrategyEntry* entry_of(std::string_view name);
+/// A strategy's name, and its own choices behind it: NAME+FLAG=WORD+FLAG=WORD.
+Contestant contestant_of(std::string_view text);
+
+/// BART's scenes that are there; says on stderr, as `program`, which are not.
+std::vector<NamedScene> bart_scenes(std::string_view program);
+
+}  // namespace firstray
