@@ -235,10 +235,11 @@ struct Searcher {
         if (target.scenery) search(*target.around, target.scenery, quest);
     }
 
+    std::uint64_t version() const { return target.geometry->version(); }
     float cell() const
     {
-        if (target.scenery) return target.around->structure.grids[0].mean_cell();
-        return target.outer ? target.outer->structure.grids[0].mean_cell() : 1.0f;
+        if (target.scenery) return target.around->structure.grids[0].fine_length();
+        return target.outer ? target.outer->structure.grids[0].fine_length() : 1.0f;
     }
 
     template <class BeamQuest>

@@ -113,6 +113,7 @@ struct World {
 
 /// The primitives of a box where they stand in the root system, for beams.
 struct BoxBeamPrimitives {
+    static constexpr bool stand_in_packs = false;
     const RootGeometry<float>& geometry;
     std::uint32_t group;
     RootTriangle<float> triangle(const TrianglePack&, int, PrimitiveId id) const
@@ -162,10 +163,11 @@ struct Searcher {
         if (target.scenery) search(*target.scenery, quest);
     }
 
+    std::uint64_t version() const { return target.geometry->version(); }
     float cell() const
     {
-        if (target.scenery) return target.scenery->structure.grids[0].mean_cell();
-        return target.outer ? target.outer->structure.grids[0].mean_cell() : 1.0f;
+        if (target.scenery) return target.scenery->structure.grids[0].fine_length();
+        return target.outer ? target.outer->structure.grids[0].fine_length() : 1.0f;
     }
 
     template <class BeamQuest>

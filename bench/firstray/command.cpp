@@ -66,7 +66,7 @@ void add_search(CLI::App& app, SearchChoice& search)
         CLI::Option* option =
             add(app, flag, search.own[std::string(own.flag)], "NAME",
                 list_of(own.words) + ": " + std::string(own.summary) + "; default " + std::string(own.words[0]));
-        if (own.flag == "costs") option->group("");  // one screen is enough: info tells of it
+        if (own.flag == "costs" || own.flag == "embree-rays") option->group("");  // one screen is enough: README tells of them
     }
 }
 

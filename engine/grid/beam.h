@@ -3,6 +3,7 @@
 #include <cstdint>
 
 #include "engine/core/ray_tile.h"
+#include "engine/primitive/triangle_pack.h"
 
 namespace firstray {
 
@@ -96,6 +97,34 @@ private:
     };
     std::array<Slot, slots> slots_;
     std::uint64_t beam_ = 0;
+};
+
+/// The triangles that have last kept rays of a light from where they ran: the next beam tries them first. What is found
+/// does not depend on it, only how soon. One for each thread.
+class Occluders {
+public:
+    /// apex     of the rays to come
+    /// version  RootGeometry::version(): triangles of another one are forgotten
+    void begin_tile(const glm::vec3& apex, std::uint64_t version);
+    /// id_and_bit  with transmitting_bit
+    void remember(const RootTriangle<float>& triangle, std::uint32_t id_and_bit);
+    /// The pack of those remembered; the other lanes are clear.
+    const TrianglePack& pack() const { return lights_[light_].pack; }
+    bool has_any() const { return lights_[light_].count > 0; }
+
+    static Occluders& of_this_thread();
+
+private:
+    static constexpr std::size_t lights = 16;  // direct-mapped
+    static constexpr int most = 4;
+    struct Light {
+        glm::vec3 apex{0.0f};
+        std::uint64_t version = 0;
+        int count = 0, next = 0;
+        TrianglePack pack;
+    };
+    std::array<Light, lights> lights_;
+    std::size_t light_ = 0;
 };
 
 /// Room for the rays of a beam. One for each thread.

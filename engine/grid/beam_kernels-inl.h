@@ -92,74 +92,119 @@ HWY_INLINE std::uint32_t boxes_meeting(const PackBoxes& boxes, const Beam& beam,
     return found;
 }
 
-/// Sixteen triangles as a beam sees them: which side of each edge a ray passes, as a linear function of its slopes,
-/// positive where it may meet the triangle.
-struct BeamTriangles {
-    alignas(64) float side[3][3][pack_size];  ///< edge; factor of u, of v, constant; lane
-    alignas(64) float error[pack_size];       ///< bound on the error of a side
-    alignas(64) float near[pack_size];        ///< least depth
+/// A rectangle of slopes: by axis u, v.
+struct SlopeBounds {
+    float lo[2], hi[2];
 };
 
-/// blur   how far a corner that the test sees may be from its place in the pack, per coordinate
-/// loose  see make_filter_ray
-/// Returns the lanes that any ray of the beam may meet.
-HWY_INLINE std::uint32_t make_beam_triangles(const TrianglePack& pack, const Beam& beam, float wide, float blur,
-                                             float loose, BeamTriangles& out)
+/// Around the slopes of some packets.
+HWY_INLINE SlopeBounds bounds_of(const Beam& beam, PacketMask packets)
+{
+    constexpr int few = max_packets / 4;  // more: they are mostly all over the beam
+    if (__builtin_popcountll(packets) > few) return {{beam.lo[0], beam.lo[1]}, {beam.hi[0], beam.hi[1]}};
+    const float infinite = std::numeric_limits<float>::infinity();
+    SlopeBounds bounds{{infinite, infinite}, {-infinite, -infinite}};
+    for (; packets != 0; packets &= packets - 1) {
+        const int packet = __builtin_ctzll(packets);
+        bounds.lo[0] = std::min(bounds.lo[0], beam.lo_u[packet]);
+        bounds.hi[0] = std::max(bounds.hi[0], beam.hi_u[packet]);
+        bounds.lo[1] = std::min(bounds.lo[1], beam.lo_v[packet]);
+        bounds.hi[1] = std::max(bounds.hi[1], beam.hi_v[packet]);
+    }
+    return bounds;
+}
+
+/// Sixteen triangles as all rays from one apex see them: what triangle.h computes before the direction comes in, and
+/// the same bits, but that sides have the sign that makes them positive where a ray may meet the triangle. (Exchanging
+/// all three signs changes no bit of what a test gives.)
+struct BeamTriangles {
+    alignas(64) float side[3][3][pack_size];  ///< edge, axis, lane: its dot product with a direction is the side
+    alignas(64) float normal[3][pack_size];
+    alignas(64) float height[pack_size], span[pack_size], distance[pack_size];
+    alignas(64) float error[pack_size];  ///< bound on the error of a side, for a direction of unit depth
+    alignas(64) float near[pack_size];   ///< least depth
+};
+
+/// bounds  of the slopes of the rays that matter
+/// blur    how far a corner that the test sees may be from its place in the pack, per coordinate
+/// loose   see make_filter_ray
+/// Returns the lanes that a ray with such slopes may meet.
+HWY_INLINE std::uint32_t make_beam_triangles(const TrianglePack& pack, const Beam& beam, const SlopeBounds& bounds,
+                                             float wide, float blur, float loose, BeamTriangles& out)
 {
     const PackLanes d;
     using V = hn::Vec<PackLanes>;
-    const int axes[3] = {beam.u, beam.v, beam.k};
+    float apex[3];
+    apex[beam.u] = beam.apex[0];
+    apex[beam.v] = beam.apex[1];
+    apex[beam.k] = beam.apex[2];
     const float off = 2.0f * blur;
     const auto per_edge = hn::Set(d, 24.0f * off), least_error = hn::Set(d, 4.0f * off * off + least_bound<float>);
     const auto per_size = hn::Set(d, (2.0f + loose) * side_error<float> * beam.steepest);
+    const auto forward = hn::Set(d, beam.forward), widen = hn::Set(d, wide), zero = hn::Zero(d);
+    const auto cross = [](const V(&p)[3], const V(&q)[3], V(&result)[3]) HWY_ATTR {
+        for (int i = 0; i < 3; ++i) {
+            const int j = (i + 1) % 3, k = (i + 2) % 3;
+            result[i] = hn::Sub(hn::Mul(p[j], q[k]), hn::Mul(p[k], q[j]));
+        }
+    };
+    const auto largest = [](const V(&p)[3])
+                             HWY_ATTR { return hn::Max(hn::Max(hn::Abs(p[0]), hn::Abs(p[1])), hn::Abs(p[2])); };
     std::uint32_t found = 0;
     for (int lane = 0; lane < pack_size; lane += kernel_lanes) {
-        V a[3][3];  // corner, axis: relative to the apex
+        V v[3][3], a[3][3], e[3][3];  // corner or edge, axis
         for (int corner = 0; corner < 3; ++corner)
             for (int axis = 0; axis < 3; ++axis) {
-                a[corner][axis] =
-                    hn::Sub(hn::Load(d, pack.v[corner][axes[axis]] + lane), hn::Set(d, beam.apex[axis]));
-                if (axis == 2) a[corner][2] = hn::Mul(a[corner][2], hn::Set(d, beam.forward));
+                v[corner][axis] = hn::Load(d, pack.v[corner][axis] + lane);
+                a[corner][axis] = hn::Sub(v[corner][axis], hn::Set(d, apex[axis]));
             }
-        const auto near = hn::Min(hn::Min(a[0][2], a[1][2]), a[2][2]);
-        const auto edge = hn::Load(d, pack.edge + lane);
-        auto distance = hn::Max(hn::Abs(a[0][0]), hn::Max(hn::Abs(a[0][1]), hn::Abs(a[0][2])));
-        distance = hn::Add(distance, edge);
-        const auto size = hn::Mul(edge, distance);
-        auto error = hn::MulAdd(per_size, size, hn::MulAdd(per_edge, edge, least_error));
+        const V z0 = hn::Mul(a[0][beam.k], forward), z1 = hn::Mul(a[1][beam.k], forward),
+                z2 = hn::Mul(a[2][beam.k], forward);
+        const V near = hn::Sub(hn::Min(hn::Min(z0, z1), z2), widen), far = hn::Add(hn::Max(hn::Max(z0, z1), z2), widen);
+        const V edge = hn::Load(d, pack.edge + lane), distance = hn::Add(largest(a[0]), edge);
+        V error = hn::MulAdd(per_size, hn::Mul(edge, distance), hn::MulAdd(per_edge, edge, least_error));
 
-        V n[3][3];  // edge, axis
-        for (int e = 0; e < 3; ++e) {
-            const int i = (e + 1) % 3, j = (e + 2) % 3;
-            const V ex = hn::Sub(a[j][0], a[i][0]), ey = hn::Sub(a[j][1], a[i][1]), ez = hn::Sub(a[j][2], a[i][2]);
-            const V sx = hn::Add(a[j][0], a[i][0]), sy = hn::Add(a[j][1], a[i][1]), sz = hn::Add(a[j][2], a[i][2]);
-            n[e][0] = hn::MulSub(ey, sz, hn::Mul(ez, sy));
-            n[e][1] = hn::MulSub(ez, sx, hn::Mul(ex, sz));
-            n[e][2] = hn::MulSub(ex, sy, hn::Mul(ey, sx));
+        V n[3][3], normal[3];
+        for (int i = 0; i < 3; ++i) {
+            const int j = (i + 1) % 3, k = (i + 2) % 3;
+            V sum[3];
+            for (int axis = 0; axis < 3; ++axis) {
+                e[i][axis] = hn::Sub(v[k][axis], v[j][axis]);
+                sum[axis] = hn::Add(a[j][axis], a[k][axis]);
+            }
+            cross(e[i], sum, n[i]);
         }
+        cross(e[1], e[2], normal);
+        const V height = hn::Add(hn::Add(hn::Mul(normal[0], a[0][0]), hn::Mul(normal[1], a[0][1])),
+                                 hn::Mul(normal[2], a[0][2]));
+
         // The volume between the apex and the triangle has the sign that the sides of a hit have. Seen edge-on, both
         // signs may occur: nothing is certain then.
         const V volume = hn::MulAdd(n[0][0], a[0][0], hn::MulAdd(n[0][1], a[0][1], hn::Mul(n[0][2], a[0][2])));
         const V doubt = hn::Mul(hn::Set(d, 4.0f), hn::Mul(error, distance));
-        error = hn::IfThenElse(hn::Gt(hn::Abs(volume), doubt), error, hn::Set(d, std::numeric_limits<float>::infinity()));
-        const auto flip = hn::And(volume, hn::SignBit(d));
-        const auto far = hn::Max(hn::Max(a[0][2], a[1][2]), a[2][2]);
-        auto apart = hn::Lt(hn::Add(far, hn::Set(d, wide)), hn::Zero(d));
-        for (int e = 0; e < 3; ++e) {
+        error = hn::IfThenElse(hn::Gt(hn::Abs(volume), doubt), error,
+                               hn::Set(d, std::numeric_limits<float>::infinity()));
+        const V flip = hn::And(volume, hn::SignBit(d));
+        auto apart = hn::Lt(far, zero);
+        for (int i = 0; i < 3; ++i) {
             for (int axis = 0; axis < 3; ++axis) {
-                n[e][axis] = hn::Xor(n[e][axis], flip);
-                hn::Store(n[e][axis], d, out.side[e][axis] + lane);
+                n[i][axis] = hn::Xor(n[i][axis], flip);
+                hn::Store(n[i][axis], d, out.side[i][axis] + lane);
             }
-            const auto most = hn::Add(
-                hn::Add(hn::Max(hn::Mul(n[e][0], hn::Set(d, beam.lo[0])), hn::Mul(n[e][0], hn::Set(d, beam.hi[0]))),
-                        hn::Max(hn::Mul(n[e][1], hn::Set(d, beam.lo[1])), hn::Mul(n[e][1], hn::Set(d, beam.hi[1])))),
-                n[e][2]);
-            apart = hn::Or(apart, hn::Lt(hn::Add(most, error), hn::Zero(d)));
+            const auto most_along = [&](const V& factor, int side) HWY_ATTR {
+                return hn::Max(hn::Mul(factor, hn::Set(d, bounds.lo[side])), hn::Mul(factor, hn::Set(d, bounds.hi[side])));
+            };
+            const V most = hn::Add(hn::Add(most_along(n[i][beam.u], 0), most_along(n[i][beam.v], 1)),
+                                   hn::Mul(n[i][beam.k], forward));
+            apart = hn::Or(apart, hn::Lt(hn::Add(most, error), zero));
         }
+        for (int axis = 0; axis < 3; ++axis) hn::Store(normal[axis], d, out.normal[axis] + lane);
+        hn::Store(height, d, out.height + lane);
+        hn::Store(hn::Mul(largest(e[1]), largest(e[2])), d, out.span + lane);
+        hn::Store(distance, d, out.distance + lane);
         hn::Store(error, d, out.error + lane);
-        hn::Store(hn::Sub(near, hn::Set(d, wide)), d, out.near + lane);
-        const auto used = hn::Eq(edge, edge);
-        found |= bits_of(d, hn::AndNot(apart, used)) << lane;
+        hn::Store(near, d, out.near + lane);
+        found |= bits_of(d, hn::AndNot(apart, hn::Eq(edge, edge))) << lane;
     }
     return found;
 }
@@ -170,11 +215,14 @@ HWY_INLINE PacketMask packets_meeting(const Beam& beam, const BeamTriangles& tri
     const PackLanes d;
     const float* u_at[3];
     const float* v_at[3];
-    hn::Vec<PackLanes> n[3][3];
+    hn::Vec<PackLanes> n[3][3];  // edge; per u, per v, for no slope
     for (int e = 0; e < 3; ++e) {
-        u_at[e] = triangles.side[e][0][lane] > 0.0f ? beam.hi_u : beam.lo_u;
-        v_at[e] = triangles.side[e][1][lane] > 0.0f ? beam.hi_v : beam.lo_v;
-        for (int axis = 0; axis < 3; ++axis) n[e][axis] = hn::Set(d, triangles.side[e][axis][lane]);
+        const float u = triangles.side[e][beam.u][lane], v = triangles.side[e][beam.v][lane];
+        u_at[e] = u > 0.0f ? beam.hi_u : beam.lo_u;
+        v_at[e] = v > 0.0f ? beam.hi_v : beam.lo_v;
+        n[e][0] = hn::Set(d, u);
+        n[e][1] = hn::Set(d, v);
+        n[e][2] = hn::Set(d, triangles.side[e][beam.k][lane] * beam.forward);
     }
     const auto error = hn::Set(d, -triangles.error[lane]), near = hn::Set(d, triangles.near[lane]);
     return packets_where(beam.count, asked, [&](int first) HWY_ATTR {
@@ -188,13 +236,18 @@ HWY_INLINE PacketMask packets_meeting(const Beam& beam, const BeamTriangles& tri
     });
 }
 
-/// A triangle as all rays from one apex see it: what triangle.h computes before the direction comes in, and the same
-/// bits.
+/// One triangle as BeamTriangles has sixteen.
 struct ApexTriangle {
     glm::vec3 side[3];    ///< its dot product with a direction is the side u, v, w
     glm::vec3 normal;     ///< Ng
     float height, span, distance, edge;
     bool has_volume;      ///< float's t can be trusted, as far as this goes
+
+    void set_volume()
+    {
+        const float volume = span * distance;
+        has_volume = volume > least_bound<float> && volume < most_volume;
+    }
 };
 
 HWY_INLINE ApexTriangle make_apex_triangle(const RootTriangle<float>& t, const glm::vec3& apex)
@@ -210,8 +263,22 @@ HWY_INLINE ApexTriangle make_apex_triangle(const RootTriangle<float>& t, const g
     p.span = largest_component<float>(e1) * largest_component<float>(e2);
     p.distance = largest_component<float>(a0) + t.edge;
     p.edge = t.edge;
-    const float volume = p.span * p.distance;
-    p.has_volume = volume > least_bound<float> && volume < most_volume;
+    p.set_volume();
+    return p;
+}
+
+HWY_INLINE ApexTriangle take_apex_triangle(const BeamTriangles& triangles, const TrianglePack& pack, int lane)
+{
+    ApexTriangle p;
+    for (int axis = 0; axis < 3; ++axis) {
+        for (int e = 0; e < 3; ++e) p.side[e][axis] = triangles.side[e][axis][lane];
+        p.normal[axis] = triangles.normal[axis][lane];
+    }
+    p.height = triangles.height[lane];
+    p.span = triangles.span[lane];
+    p.distance = triangles.distance[lane];
+    p.edge = pack.edge[lane];
+    p.set_volume();
     return p;
 }
 

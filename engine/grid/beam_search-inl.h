@@ -22,13 +22,19 @@ struct BeamQuest {
     BeamRays& rays;
     Beam& root;
     Mailbox& mailbox;
+    Occluders& occluders;
     RayMask mask;
     Precision precision;
 
     /// Tests a triangle against packets, `beam` being the one that walks now.
-    HWY_NOINLINE void test(const RootTriangle<float>& triangle, PrimitiveId id, PacketMask packets, Beam& beam)
+    /// seen         the triangle that `triangle()` gives
+    /// id_and_bit   with transmitting_bit
+    template <class Triangle>
+    HWY_NOINLINE void test(const ApexTriangle& seen, std::uint32_t id_and_bit, PacketMask packets, Beam& beam,
+                           const Triangle& triangle)
     {
-        const ApexTriangle seen = make_apex_triangle(triangle, rays.apex);
+        const PrimitiveId id = id_and_bit & ~transmitting_bit;
+        bool is_met = false;
         for (; packets != 0; packets &= packets - 1) {
             const int packet = __builtin_ctzll(packets);
             const PacketHits found = test_packet<query == Query::any>(seen, id, precision != Precision::fast, rays, packet * packet_size);
@@ -36,11 +42,14 @@ struct BeamQuest {
             for (std::uint32_t rest = found.uncertain; rest != 0; rest &= rest - 1) {
                 const int lane = __builtin_ctz(rest);
                 const auto ray = static_cast<std::size_t>(packet * packet_size + lane);
-                const TriangleHit<float> hit = intersect_precisely(triangle, search_ray(ray), precision, rays.t[ray]);
+                const TriangleHit<float> hit = intersect_precisely(triangle(), search_ray(ray), precision, rays.t[ray]);
                 if (hit.hit && take(ray, hit.t, hit.u, hit.v, id)) hits |= 1u << lane;
             }
-            if (hits != 0) note_hits(packet, hits, beam);
+            if (hits == 0) continue;
+            note_hits(packet, hits, beam);
+            is_met = true;
         }
+        if (query == Query::any && is_met) occluders.remember(triangle(), id_and_bit);
     }
 
     /// Sends each ray of the packets that still looks for something on a search of its own.
@@ -96,7 +105,8 @@ private:
 };
 
 /// A beam's search of one structure.
-/// Primitives  what is tested: `triangle(pack, lane, id)` and `quadric(id)`, in the root system
+/// Primitives  what is tested: `triangle(pack, lane, id)` and `quadric(id)`, in the root system; `stand_in_packs` says
+///             that triangles are, bit for bit, those of the packs
 template <class BeamQuest, class Primitives>
 struct BeamSearch {
     BeamQuest& quest;
@@ -152,8 +162,9 @@ struct BeamSearch {
     HWY_NOINLINE void pack(const TrianglePack& pack, PacketMask packets)
     {
         BeamTriangles triangles;
-        for (std::uint32_t met = make_beam_triangles(pack, beam, wide, structure->blur, loose, triangles); met != 0;
-             met &= met - 1) {
+        for (std::uint32_t met = make_beam_triangles(pack, beam, bounds_of(beam, packets), wide, structure->blur, loose,
+                                                     triangles);
+             met != 0; met &= met - 1) {
             const int lane = __builtin_ctz(met);
             const std::uint32_t marked = pack.id[lane];
             const PrimitiveId id = marked & ~transmitting_bit;
@@ -161,7 +172,12 @@ struct BeamSearch {
             const PacketMask untested = quest.mailbox.untested(id, packets);
             if (untested == 0) continue;
             const PacketMask maybe = packets_meeting(beam, triangles, lane, untested);
-            if (maybe != 0) quest.test(primitives.triangle(pack, lane, id), id, maybe, beam);
+            if (maybe == 0) continue;
+            const auto triangle = [&] { return primitives.triangle(pack, lane, id); };
+            if constexpr (Primitives::stand_in_packs)
+                quest.test(take_apex_triangle(triangles, pack, lane), marked, maybe, beam, triangle);
+            else
+                quest.test(make_apex_triangle(triangle(), quest.rays.apex), marked, maybe, beam, triangle);
         }
     }
 
@@ -175,10 +191,16 @@ struct BeamSearch {
     }
 };
 
-/// The primitives of a structure in the root system, for beams.
-struct BeamRootPrimitives {
-    const RootGeometry<float>& geometry;
+/// Triangles of the root system, for beams.
+struct PackedTriangles {
+    static constexpr bool stand_in_packs = true;
     RootTriangle<float> triangle(const TrianglePack& pack, int lane, PrimitiveId) const { return pack.triangle(lane); }
+};
+
+/// The primitives of a structure in the root system, for beams.
+struct BeamRootPrimitives : PackedTriangles {
+    explicit BeamRootPrimitives(const RootGeometry<float>& g) : geometry(g) {}
+    const RootGeometry<float>& geometry;
     const RootQuadric& quadric(PrimitiveId id) const { return geometry.quadric(id); }
 };
 
@@ -200,6 +222,19 @@ private:
     int count_ = 0;
 };
 
+/// Tests the triangles that have lately kept a light's rays from where they ran.
+template <class Quest>
+HWY_INLINE void try_occluders(Quest& quest)
+{
+    const TrianglePack& pack = quest.occluders.pack();
+    static const GridStructure none_at_all;
+    const PackedTriangles primitives;
+    BeamSearch<Quest, PackedTriangles> search{quest, quest.root, primitives, &none_at_all,
+                                         quest.precision == Precision::fast ? 1.0f : 0.0f};
+    search.wide = std::numeric_limits<float>::infinity();  // no depth is known here to be beyond anything
+    if (quest.occluders.has_any()) search.pack(TrianglePack(pack), quest.root.packets);
+}
+
 /// Whether rays of a tile may walk as beams: they have a common apex, and nobody asks what each of them costs.
 inline bool may_make_beams(const RayTile<float>& tile)
 {
@@ -217,11 +252,14 @@ HWY_INLINE void search_tile(RayTile<Real>& tile, Precision precision, const Sear
     if constexpr (std::is_same_v<Real, float>) {
         if (may_make_beams(tile)) {
             Mailbox& mailbox = Mailbox::of_this_thread();
+            Occluders& occluders = Occluders::of_this_thread();
+            if (query == Query::any) occluders.begin_tile(tile.apex, searcher.version());
             search_by_beams(
                 tile, searcher.cell(),
                 [&](BeamRays& rays, Beam& root) HWY_ATTR {
                     mailbox.begin_beam();
-                    BeamQuest<query> quest{rays, root, mailbox, tile.mask, precision};
+                    BeamQuest<query> quest{rays, root, mailbox, occluders, tile.mask, precision};
+                    if (query == Query::any) try_occluders(quest);
                     searcher.beam(quest);
                 },
                 one);

@@ -1,6 +1,7 @@
 #pragma once
 #include <glm/glm.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <vector>
@@ -22,8 +23,14 @@ struct alignas(16) Grid {
     std::uint32_t first_cell = 0;
 
     glm::vec3 hi() const { return lo + cell * glm::vec3(dims); }
-    /// Length of a cell, between those of its sides.
-    float mean_cell() const { return std::cbrt(cell.x * cell.y * cell.z); }
+    /// Length, between those of its sides, of a cell, or of a part of the grid where that is smaller: what is in few
+    /// large cells is sorted too.
+    float fine_length() const
+    {
+        constexpr float parts = 16.0f;
+        const glm::vec3 size = cell * glm::vec3(dims);
+        return std::min(std::cbrt(cell.x * cell.y * cell.z), std::cbrt(size.x * size.y * size.z) / parts);
+    }
     std::uint32_t cells() const { return static_cast<std::uint32_t>(dims.x * dims.y * dims.z); }
 };
 

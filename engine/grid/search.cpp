@@ -20,7 +20,8 @@ struct GridSearcher {
     {
         search_root(target, EagerResolver(*target.structure), quest);
     }
-    float cell() const { return target.structure->grids[0].mean_cell(); }
+    std::uint64_t version() const { return target.geometry->version(); }
+    float cell() const { return target.structure->grids[0].fine_length(); }
 
     template <class BeamQuest>
     void beam(BeamQuest& quest) const

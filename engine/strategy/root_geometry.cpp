@@ -68,6 +68,8 @@ void RootGeometry<Real>::update(const Pose& pose, const Executor* executor)
 template <typename Real>
 void RootGeometry<Real>::update_on_touch(const Pose& pose)
 {
+    static std::atomic<std::uint64_t> versions{0};
+    version_ = ++versions;
     const bool is_first = pose_ == nullptr;
     for (std::uint32_t i = 0; i < scene_.groups.size(); ++i) {
         const Group& group = scene_.groups[i];

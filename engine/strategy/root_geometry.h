@@ -72,6 +72,9 @@ public:
     }
     RootQuadric quadric_alone(std::uint32_t group, PrimitiveId id) const;
 
+    /// Differs from that of every other geometry and of this one before its last update.
+    std::uint64_t version() const { return version_; }
+
     bool transmits(PrimitiveId id) const { return transmits_[id] != 0; }
     std::uint64_t bytes() const;
 
@@ -94,6 +97,7 @@ private:
     std::vector<std::uint8_t> is_there_, moved_;         ///< by group: visible at the last update; has_moved
     double time_ = 0.0;                                  ///< of the last update
     std::vector<std::uint8_t> was_visible_;              ///< by group, at the last update
+    std::uint64_t version_ = 0;
     PrimitiveList visible_;
 };
 
