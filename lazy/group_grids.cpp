@@ -66,14 +66,21 @@ std::unique_ptr<LazyGrid> GroupGrids<Real>::make(std::uint32_t group) const
 }
 
 template <typename Real>
-const LazyGrid& GroupGrids<Real>::gather(const PrimitiveList& primitives, const Executor* executor)
+std::uint64_t GroupGrids<Real>::gather(const PrimitiveList& primitives, const Aabb& room, const Executor* executor)
 {
-    return *grids_[everything_that_moves].get_or_make([&] {
-        auto grid =
-            std::make_unique<LazyGrid>(make_entries(geometry_, primitives, executor), options_, ledger_, executor);
-        ledger_.correct(0, grid->bytes());
-        return grid;
-    });
+    MadeOnce<LazyGrid>& place = grids_[everything_that_moves];
+    const std::unique_ptr<LazyGrid> old = place.take();
+    GridEntries entries = make_entries(geometry_, primitives, executor);
+    entries.room = room;
+    auto grid = std::make_unique<LazyGrid>(std::move(entries), options_, ledger_, executor);
+    ledger_.correct(0, grid->bytes());
+    std::uint64_t renewed = 0;
+    if (old) {
+        renewed = grid->adopt(*old, [&](PrimitiveId id) { return !geometry_.has_moved(scene_.part(id).group); });
+        ledger_.give_back(old->bytes());
+    }
+    place.put(std::move(grid));
+    return renewed;
 }
 
 /// What is in the only voxel of a group is built with its grid.

@@ -38,8 +38,10 @@ public:
     /// LazyGrid::keep() of a group's grid; 0 where there is none. Runs alone.
     std::uint64_t keep(std::uint32_t group);
 
-    /// Makes the grid of everything that moves, from primitives that are carried; it has none. Runs alone.
-    const LazyGrid& gather(const PrimitiveList& primitives, const Executor* executor);
+    /// Makes the grid of everything that moves anew, from primitives that are carried. Voxels that nothing that moved
+    /// has left or entered are kept; returns how many built ones are not. Runs alone.
+    /// room  where all of it goes: the cells then stay what they are
+    std::uint64_t gather(const PrimitiveList& primitives, const Aabb& room, const Executor* executor);
 
     /// Gives up a group's grid; returns how many voxels of it were built. Runs alone.
     std::uint64_t drop(std::uint32_t group);

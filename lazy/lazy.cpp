@@ -140,7 +140,6 @@ bool LazyStrategy<Real>::drop_moved()
         dropped_ += groups_.drop(group);
         moved = true;
     }
-    if (moved) dropped_ += groups_.drop(everything_that_moves);
     return moved;
 }
 
@@ -181,12 +180,13 @@ void LazyStrategy<Real>::place_primitives(const Pose& pose)
         there_.push_back(everything_that_moves);
         moving_ = primitives.size();
         regridded_ += moving_;
-        const LazyGrid& grid = groups_.gather(primitives, options_.executor);
-        const GridStructure& top = grid.top();
+        dropped_ += groups_.gather(primitives, room_of_movers(scene_, bounds_), options_.executor);
+        const GridStructure& top = groups_.made(everything_that_moves)->top();
         const DAabb box{top.grids[0].lo, top.grids[0].hi()};
         const double largest = std::max(static_cast<double>(top.largest), scenery_.largest());
         items.push_back(make_item(everything_that_moves, {}, {}, box, largest * static_cast<double>(box_pad_factor)));
     }
+    if (items.empty()) dropped_ += groups_.drop(everything_that_moves);
     scenery_.place(std::move(items));
 }
 

@@ -37,6 +37,14 @@ LazyGrid::~LazyGrid()
         if (const GridStructure* built = voxels_[cell].get()) ledger_.give_back(built->bytes() + sizeof *built);
 }
 
+bool LazyGrid::has_cells_of(const LazyGrid& other) const
+{
+    const GridStructure &mine = top_.structure, &others = other.top_.structure;
+    const Grid &grid = mine.grids[0], &theirs = others.grids[0];
+    return grid.lo == theirs.lo && grid.cell == theirs.cell && grid.dims == theirs.dims && mine.pad == others.pad &&
+           mine.largest == others.largest;
+}
+
 const GridStructure* LazyGrid::enter_first(std::uint32_t cell, std::uint64_t rays) const
 {
     const auto make = [&] { return voxels_[cell].get_or_make([&] { return build(cell); }); };

@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -60,6 +61,23 @@ public:
     /// Returns how many voxels are built.
     std::uint64_t keep();
 
+    /// Takes over, from a grid that is given up, the voxels that list what they list here. Both must have the same cells
+    /// for that. Returns how many were built and are not taken. Runs alone.
+    /// stands  whether a primitive is where it was: `stands(id)`
+    template <class Stands>
+    std::uint64_t adopt(LazyGrid& old, const Stands& stands)
+    {
+        std::uint64_t given_up = 0;
+        const bool same_cells = has_cells_of(old);
+        for (std::uint32_t cell = 0; cell < old.top_.structure.cells.size(); ++cell) {
+            if (!old.built(cell)) continue;
+            const bool is_same = same_cells && lists_same(old, cell, stands);
+            given_up += !is_same;
+            if (is_same) voxels_[cell].put(old.voxels_[cell].take());
+        }
+        return given_up;
+    }
+
     /// Appends the grid as it stands, what is built and what is not, without what is inside voxels.
     /// heading  its kind, name, level and primitives are kept, the rest is filled in
     void append_outline(StructureBox heading, std::vector<StructureBox>& out) const;
@@ -68,6 +86,17 @@ public:
     std::uint64_t bytes() const { return held_; }  ///< without voxels
 
 private:
+    bool has_cells_of(const LazyGrid& other) const;
+    template <class Stands>
+    bool lists_same(const LazyGrid& old, std::uint32_t cell, const Stands& stands) const
+    {
+        const auto now = listed(cell), before = old.listed(cell);
+        return std::equal(now.begin(), now.end(), before.begin(), before.end(),
+                          [&](std::uint32_t mine, std::uint32_t others) {
+                              return entries_.ids[mine] == old.entries_.ids[others] &&
+                                     stands(entries_.ids[mine] & ~transmitting_bit);
+                          });
+    }
     const GridStructure* enter_first(std::uint32_t cell, std::uint64_t rays) const;
     std::unique_ptr<GridStructure> build(std::uint32_t cell) const;
 

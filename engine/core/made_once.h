@@ -65,6 +65,12 @@ public:
         return made;
     }
 
+    /// Puts in what was made elsewhere; nothing is in it. Runs alone.
+    void put(std::unique_ptr<T> made)
+    {
+        word_.store(reinterpret_cast<std::uintptr_t>(made.release()), std::memory_order_relaxed);
+    }
+
 private:
     static constexpr std::memory_order publish =
         FIRSTRAY_MUTANT == 1 ? std::memory_order_relaxed : std::memory_order_release;
