@@ -116,6 +116,8 @@ const char* name_of(Aov aov)
             return "tests";
         case Aov::time:
             return "time";
+        case Aov::age:
+            return "age";
     }
     throw std::invalid_argument("write_frame: no such layer");
 }
@@ -140,6 +142,8 @@ void pack(const Frame& frame, Aov aov, std::size_t channel, Packed& packed)
             return pack<std::uint32_t>(frame.tests, channel, packed);
         case Aov::time:
             return pack<float>(frame.nanoseconds, channel, packed);
+        case Aov::age:
+            return pack<std::uint32_t>(frame.age, channel, packed);
     }
 }
 

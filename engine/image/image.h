@@ -26,7 +26,7 @@ Texture read_texture(const std::filesystem::path& file, const ImageLimits& limit
 std::vector<Texture> read_textures(const Scene& scene, const ImageLimits& limits = {});
 
 /// A layer that write_frame can add to an EXR file.
-enum class Aov { distance, primitive, group, cells, tests, time };
+enum class Aov { distance, primitive, group, cells, tests, time, age };
 
 /// Writes a frame: ".exr" (R G B as float and a channel per AOV, under the AOVs' names) or ".png" (8-bit R G B, no gamma; AOVs
 /// are refused). The file appears by rename, complete or not at all. Folders that do not exist are made.
