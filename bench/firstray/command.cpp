@@ -72,8 +72,10 @@ void add_render(CLI::App& app, RenderJob& job)
     add(app, "--size", job.size, "WxH", "picture's size; default: the scene's");
     add_int(app, "--depth", job.depth, 0, 64, "reflections and refractions in a row; default 4");
     add_int(app, "--spp", job.samples, 1, 4096, "samples per pixel; default 1");
+    add(app, "--frameless", job.frameless, "1/X", "share of the pixels that a frame traces; default 1, all");
+    add(app, "--seed", job.seed, "N", "which pixels --frameless takes; default 0")->check(CLI::NonNegativeNumber);
     add_search(app, job.search);
-    add(app, "--aov", job.aovs, "LIST", "layers of an EXR: distance,primitive,group,cells,tests,time");
+    add(app, "--aov", job.aovs, "LIST", "layers of an EXR: distance,primitive,group,cells,tests,time,age");
     app.add_flag("--structure", job.structure,
                  "draw boxes and filled cells over the pictures; those of few pixels fade out");
     add(app, "--output", job.output, "NAME", "a run of # is the frame; default SCENE.####.png here, .exr with --aov");

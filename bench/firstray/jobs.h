@@ -33,6 +33,8 @@ struct RenderJob {
     std::string size;  ///< empty: the scene's
     int depth = 4;
     int samples = 1;
+    std::string frameless = "1";
+    std::uint64_t seed = 0;
     std::string aovs;
     std::string output;  ///< empty: the scene's name in the current folder
     std::string stats;   ///< empty: none

@@ -54,6 +54,14 @@ int parse_int(std::string_view what, std::string_view text, int low, int high)
     return value;
 }
 
+int parse_share(std::string_view what, std::string_view text)
+{
+    constexpr int smallest_share = 4096;
+    if (text == "1") return 1;
+    if (!text.starts_with("1/")) throw UsageError(fmt::format("{}: '{}', expected 1 or 1/X, e.g. 1/5", what, text));
+    return parse_int(what, text.substr(2), 1, smallest_share);
+}
+
 std::string list_of(std::span<const std::string_view> words)
 {
     if (words.size() < 2) return std::string(words.empty() ? "none" : words.front());

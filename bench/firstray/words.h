@@ -25,6 +25,10 @@ std::string_view trim(std::string_view text);
 /// throws  UsageError
 int parse_int(std::string_view what, std::string_view text, int low, int high);
 
+/// X of "1/X", or 1 of "1": a share of the pixels.
+/// throws  UsageError
+int parse_share(std::string_view what, std::string_view text);
+
 /// "a, b or c".
 std::string list_of(std::span<const std::string_view> words);
 

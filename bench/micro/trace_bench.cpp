@@ -66,16 +66,10 @@ std::vector<std::string_view> split(std::string_view text, char separator)
     return pieces;
 }
 
-/// A strategy's name, and its own choices behind it: NAME+FLAG=WORD+FLAG=WORD.
 Contestant contestant_of(std::string_view text)
 {
-    const auto pieces = split(text, '+');
-    Contestant contestant{std::string(text), entry_of(pieces[0]), {}};
-    for (std::size_t i = 1; i < pieces.size(); ++i) {
-        const auto sides = split(pieces[i], '=');
-        if (sides.size() != 2) refuse("expected FLAG=WORD in " + std::string(text));
-        contestant.own.emplace_back(sides[0], sides[1]);
-    }
+    Contestant contestant = parse_contestant(text);
+    entry_of(contestant.entry->name);
     return contestant;
 }
 
@@ -216,7 +210,7 @@ private:
         if (const std::uint64_t rays = rays_of(*measurement_, part))
             state.counters["Mrays/s"] = 1e-6 * static_cast<double>(rays) / typical_seconds(measured, part);
         if (const Measured* base = timed(*measurement_, settings_.base)) {
-            const Ratio ratio = ratio_to(*base, measured, part);
+            const Spread ratio = ratio_to(*base, measured, part);
             state.counters["ratio"] = ratio.median;
             state.counters["ratio_least"] = ratio.least;
             state.counters["ratio_most"] = ratio.most;
