@@ -1,5 +1,8 @@
 #include "bench/firstray/command.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
@@ -19,6 +22,9 @@ constexpr const char* render_examples = R"(Examples:
 constexpr const char* info_examples = R"(Examples:
   firstray info Robot.aff --structure --frame 456
   firstray info museum5.aff --json | jq .triangles)";
+constexpr const char* compare_examples = R"(Examples:
+  firstray compare Robot.aff --size 320x240
+  firstray compare kitchen.aff --strategies grid,obb,obb+obb-top=list,lazy --report out/kitchen)";
 constexpr const char* trace_examples =
     R"(A ray is a line ox,oy,oz,dx,dy,dz,tmin,tmax in world coordinates; tmax may be inf. Line k of the
 answer is t,group,primitive,u,v of ray k, or inf,-1,-1,0,0 where it meets nothing.
@@ -47,9 +53,9 @@ void add_scene(CLI::App& app, SceneChoice& scene)
     app.add_flag("--allow-outside", scene.allow_outside, "let includes and textures lie outside the scene's folder");
 }
 
-void add_search(CLI::App& app, SearchChoice& search)
+/// What all strategies understand.
+void add_structure(CLI::App& app, SearchChoice& search)
 {
-    add(app, "--strategy", search.strategy, "NAME", "structure: " + strategy_names() + "; default grid");
     add(app, "--precision", search.precision, "NAME", "fast, robust or double; default robust");
     add_int(app, "--threads", search.threads, 0, 1024, "threads that work at once; default 0, all there are");
     add(app, "--grid-density", search.grid_density, "X", "cells per primitive; default 0, the strategy's own")
@@ -60,6 +66,12 @@ void add_search(CLI::App& app, SearchChoice& search)
             "levels of grids; default " + std::to_string(search.grid_depth));
     add(app, "--structure-budget", search.structure_budget, "BYTES",
         "most that lazy may build while rays fly, and hold; default 0, no limit");
+}
+
+void add_search(CLI::App& app, SearchChoice& search)
+{
+    add(app, "--strategy", search.strategy, "NAME", "structure: " + strategy_names() + "; default grid");
+    add_structure(app, search);
     for (const OwnChoice& own : own_choices())
         add(app, "--" + std::string(own.flag), search.own[std::string(own.flag)], "NAME",
             list_of(own.words) + ": " + std::string(own.summary) + "; default " + std::string(own.words[0]));
@@ -83,6 +95,27 @@ void add_render(CLI::App& app, RenderJob& job)
     app.add_flag("--table", job.table, "print a line of times per frame to standard output");
     add(app, "--progress", job.progress, "WHEN", "auto (not beside --table), always or never; default auto");
     app.footer(render_examples);
+}
+
+void add_compare(CLI::App& app, CompareJob& job)
+{
+    add_scene(app, job.scene);
+    add(app, "--strategies", job.strategies, "LIST",
+        "of " + strategy_names() +
+            "; each perhaps with +FLAG=WORD of its own; default all, list only where it is quick");
+    add(app, "--frames", job.frames, "LIST", "as for render; default 8, spread over the animation");
+    add(app, "--size", job.size, "WxH", "pictures' size; default: the scene's");
+    add_int(app, "--depth", job.depth, 0, 64, "reflections and refractions in a row; default 4");
+    add_int(app, "--spp", job.samples, 1, 4096, "samples per pixel; default 1");
+    add_int(app, "--repeat", job.repeat, 1, 1000, "timed rounds through all frames; default 5");
+    add_int(app, "--check-rays", job.check_rays, 0, 1 << 30,
+            "rays a frame checked against list; default 0, for about a third of a second");
+    add_structure(app, job.search);
+    add(app, "--seed", job.seed, "N", "of what is random; default 0")->check(CLI::NonNegativeNumber);
+    add(app, "--report", job.report, "DIR", "folder for the report; default out/SCENE-report");
+    app.add_flag("--json", job.json, "print the results as JSON, not as a table");
+    add(app, "--progress", job.progress, "WHEN", "auto, always or never; default auto");
+    app.footer(compare_examples);
 }
 
 void add_info(CLI::App& app, InfoJob& job)
@@ -158,6 +191,7 @@ std::string one_line(std::string text)
 void dispatch(std::span<const std::string> arguments, Streams streams)
 {
     RenderJob render;
+    CompareJob compare;
     InfoJob info;
     TraceJob trace;
     CLI::App app("firstray: ray tracing of animated scenes", "firstray");
@@ -166,6 +200,7 @@ void dispatch(std::span<const std::string> arguments, Streams streams)
     app.get_formatter()->column_width(28);
     app.allow_extras();
     add_render(*app.add_subcommand("render", "render frames to picture files"), render);
+    add_compare(*app.add_subcommand("compare", "measure strategies side by side and check that they agree"), compare);
     add_info(*app.add_subcommand("info", "tell what a scene consists of"), info);
     add_trace(*app.add_subcommand("trace", "find what given rays hit"), trace);
 
@@ -181,6 +216,10 @@ void dispatch(std::span<const std::string> arguments, Streams streams)
     refuse_extras(app);
     refuse_extras(command);
     if (command.get_name() == "render") return render_scene(render, streams);
+    if (command.get_name() == "compare") {
+        compare.command_line = fmt::format("firstray {}", fmt::join(arguments, " "));
+        return compare_strategies(compare, streams);
+    }
     if (command.get_name() == "info") return print_info(info, streams);
     require(command, "--frame");
     require(command, "--rays");

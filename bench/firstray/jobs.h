@@ -43,6 +43,23 @@ struct RenderJob {
     bool structure = false;  ///< draw it over the pictures
 };
 
+struct CompareJob {
+    SceneChoice scene;
+    SearchChoice search;     ///< of every strategy
+    std::string strategies;  ///< empty: all
+    std::string frames;      ///< empty: some, spread over the animation
+    std::string size;        ///< empty: the scene's
+    int depth = 4;
+    int samples = 1;
+    int repeat = 5;
+    int check_rays = 0;
+    std::uint64_t seed = 0;
+    std::string report;  ///< folder; empty: out/NAME-report
+    bool json = false;
+    std::string progress = "auto";
+    std::string command_line;
+};
+
 struct InfoJob {
     SceneChoice scene;
     bool json = false;
@@ -61,6 +78,7 @@ struct TraceJob {
 
 /// Each throws Error for what is the user's to mend, and whatever the engine throws.
 void render_scene(const RenderJob& job, Streams streams);
+void compare_strategies(const CompareJob& job, Streams streams);
 void print_info(const InfoJob& job, Streams streams);
 void trace_rays(const TraceJob& job, Streams streams);
 

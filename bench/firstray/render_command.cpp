@@ -17,14 +17,6 @@
 namespace firstray::command {
 namespace {
 
-glm::ivec2 parse_size(std::string_view text)
-{
-    const auto axes = split(text, 'x');
-    if (axes.size() != 2) throw UsageError(fmt::format("--size: '{}', expected WIDTHxHEIGHT, e.g. 800x600", text));
-    const int largest = ReadLimits{}.resolution;
-    return {parse_int("--size: width", axes[0], 1, largest), parse_int("--size: height", axes[1], 1, largest)};
-}
-
 /// A job with every word read and every default filled in.
 struct Plan {
     std::vector<int> frames;

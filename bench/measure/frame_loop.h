@@ -20,30 +20,8 @@ public:
     {
     }
 
-    /// Fills `picture` and returns what it took.
-    FrameStats render(int frame, const RenderOptions& options, Frame& picture)
-    {
-        return timed(frame, picture, [&](const Pose& pose) {
-            return firstray::render(strategy_, pose, textures_, options, executor_, picture);
-        });
-    }
-
-    /// Traces some pixels alone.
-    /// picture  as a frame of the same options left it
-    FrameStats render_part(int frame, const RenderOptions& options, std::span<const glm::ivec2> pixels, Frame& picture)
-    {
-        return timed(frame, picture, [&](const Pose& pose) {
-            return render_pixels(strategy_, pose, textures_, options, executor_, pixels, picture);
-        });
-    }
-
-    const Pose& current_pose() const { return poses_[current_]; }
-    /// Of the structure as the last frame left it.
-    std::vector<StructureBox> outline() const { return strategy_.outline(); }
-
-private:
-    template <typename Trace>
-    FrameStats timed(int frame, const Frame& picture, const Trace& trace)
+    /// Poses the scene and brings the structure there, no more.
+    FrameStats update(int frame)
     {
         FrameStats stats;
         stats.frame = frame;
@@ -54,6 +32,34 @@ private:
         stats.pose_ms = update.ms();
         strategy_.update(poses_[current_]);
         stats.update_ms = update.ms();
+        return stats;
+    }
+
+    /// Fills `picture` and returns what it took.
+    FrameStats render(int frame, const RenderOptions& options, Frame& picture)
+    {
+        return finish(update(frame), picture, [&](const Pose& pose) {
+            return firstray::render(strategy_, pose, textures_, options, executor_, picture);
+        });
+    }
+
+    /// Traces some pixels alone.
+    /// picture  as a frame of the same options left it
+    FrameStats render_part(int frame, const RenderOptions& options, std::span<const glm::ivec2> pixels, Frame& picture)
+    {
+        return finish(update(frame), picture, [&](const Pose& pose) {
+            return render_pixels(strategy_, pose, textures_, options, executor_, pixels, picture);
+        });
+    }
+
+    const Pose& current_pose() const { return poses_[current_]; }
+    /// Of the structure as the last frame left it.
+    std::vector<StructureBox> outline() const { return strategy_.outline(); }
+
+private:
+    template <typename Trace>
+    FrameStats finish(FrameStats stats, const Frame& picture, const Trace& trace)
+    {
         const Stopwatch tracing;
         stats.rays = trace(poses_[current_]);
         stats.trace_ms = tracing.ms();

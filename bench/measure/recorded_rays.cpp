@@ -71,25 +71,26 @@ void RecordedRays::load(const Batch& batch, RayTile<Real>& tile, std::size_t fir
 }
 
 template <typename Real>
+void RayRecorder<Real>::write_down(RayKind kind, RayQuery query, const RayTile<Real>& tile) const
+{
+    const std::lock_guard lock(mutex_);
+    if (rays_) rays_->add(kind, query, tile);
+}
+
+template <typename Real>
 void RayRecorder<Real>::closest(RayTile<Real>& tile) const
 {
     const RayKind kind = tile.mask == RayMask::transmitting ? RayKind::shadow
                          : tile.common_apex                 ? RayKind::primary
                                                             : RayKind::secondary;
-    {
-        const std::lock_guard lock(mutex_);
-        rays_.add(kind, RayQuery::closest, tile);
-    }
+    write_down(kind, RayQuery::closest, tile);
     asked_.closest(tile);
 }
 
 template <typename Real>
 void RayRecorder<Real>::occluded(RayTile<Real>& tile) const
 {
-    {
-        const std::lock_guard lock(mutex_);
-        rays_.add(RayKind::shadow, RayQuery::occluded, tile);
-    }
+    write_down(RayKind::shadow, RayQuery::occluded, tile);
     asked_.occluded(tile);
 }
 

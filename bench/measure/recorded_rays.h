@@ -81,18 +81,23 @@ private:
 template <typename Real>
 class RayRecorder : public Strategy<Real> {
 public:
-    /// asked, rays  must outlive the recorder
-    RayRecorder(const Strategy<Real>& asked, RecordedRays& rays) : asked_(asked), rays_(rays) {}
+    /// asked  must outlive the recorder
+    explicit RayRecorder(Strategy<Real>& asked) : asked_(asked) {}
 
-    /// The strategy behind it is updated by whoever owns it.
-    void update(const Pose&) override {}
+    /// Writes down from now on; null: nothing.
+    /// rays  must outlive what is recorded
+    void record_to(RecordedRays* rays) { rays_ = rays; }
+
+    void update(const Pose& pose) override { asked_.update(pose); }
     void closest(RayTile<Real>& tile) const override;
     void occluded(RayTile<Real>& tile) const override;
     StructureReport report() const override { return asked_.report(); }
 
 private:
-    const Strategy<Real>& asked_;
-    RecordedRays& rays_;
+    void write_down(RayKind kind, RayQuery query, const RayTile<Real>& tile) const;
+
+    Strategy<Real>& asked_;
+    RecordedRays* rays_ = nullptr;
     mutable std::mutex mutex_;
 };
 

@@ -50,6 +50,10 @@ TEST_CASE("a command line that cannot be taken is told in one line and exits wit
         {"render a.aff --progress often", "expected auto, always or never"},
         {"render a.aff --frameless 0.2", "expected 1 or 1/X"},
         {"render a.aff --seed -1", "--seed"},
+        {"compare a.aff --strategies grid,gird", "strategy 'gird', expected one of list"},
+        {"compare a.aff --strategies obb+obb-top=gird", "obb-top 'gird'"},
+        {"compare a.aff --repeat 0", "--repeat"},
+        {"compare a.aff --strategy grid", "did you mean --strategies?"},
         {"info a.aff --strategy grid", "--strategy requires --structure"},
         {"info a.aff --frame 3", "--frame requires --structure"},
         {"info a.aff --structure --strategy gird", "did you mean grid?"},
@@ -78,7 +82,7 @@ TEST_CASE("a command line that cannot be taken is told in one line and exits wit
 
 TEST_CASE("help fits one screen, ends in two examples and exits with 0")
 {
-    for (const std::string command : {"render", "info", "trace"}) {
+    for (const std::string command : {"render", "compare", "info", "trace"}) {
         CAPTURE(command);
         const Outcome outcome = call({command, "--help"});
         CHECK(outcome.code == 0);

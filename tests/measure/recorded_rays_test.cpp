@@ -37,7 +37,8 @@ Recording<Real> record(const Scene& scene, const Pose& at_start, std::size_t mos
     test::ReferenceStrategy<Real> strategy;
     strategy.update(at_start);
     Recording<Real> result{{}, {}, RecordedRays(most_rays)};
-    const RayRecorder<Real> recorder(strategy, result.rays);
+    RayRecorder<Real> recorder(strategy);
+    recorder.record_to(&result.rays);
     result.counts =
         render<Real>(recorder, at_start, {}, {.width = 96, .height = 64, .depth = 3}, Executor(1), result.frame);
     CHECK(result.frame.pixel_count() == 96 * 64);
