@@ -1,5 +1,6 @@
 #include "bench/compare/compare.h"
 
+#include "bench/compare/sweep.h"
 #include "bench/compare/verdict.h"
 #include "engine/core/pending_file.h"
 
@@ -9,14 +10,22 @@ Json compare(const Scene& scene, std::span<const Texture> textures, const Plan& 
              const Watch& watch)
 {
     Contest contest(scene, textures, plan, watch);
+    Json sweep, frameless;
     try {
         contest.check();
         contest.measure();
+        sweep = measure_sweep(contest);
+        if (!plan.frameless.empty()) frameless = measure_frameless(contest);
     } catch (const Interrupted&) {
         facts.interrupted = true;
     }
     Json results = results_of(contest, facts);
     results["verdict"] = verdict_of(results);
+    if (!sweep.is_null()) {
+        results["sweep"] = sweep;
+        results["prediction"] = prediction_of(results);
+    }
+    if (!frameless.is_null()) results["frameless"] = frameless;
     return results;
 }
 

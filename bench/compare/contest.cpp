@@ -10,9 +10,9 @@
 namespace firstray::compare {
 namespace {
 
-constexpr std::size_t most_rays_kept = std::size_t{8} << 20;  // of all frames; 32 bytes each
+constexpr std::size_t most_rays_kept = std::size_t{8} << 20;        // of all frames; 32 bytes each
 constexpr std::size_t most_rays_of_a_frame = std::size_t{1} << 18;  // replayed in every round: enough for a mean
-constexpr double list_tests = 5e8;                            // a frame; a thread makes about two in a nanosecond
+constexpr double list_tests = 5e8;                                  // a frame; a thread makes about two in a nanosecond
 
 /// Gives the reference's pictures and records the rays: all of our strategies give the same.
 constexpr const char* reference_strategy = "grid";

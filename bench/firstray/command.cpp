@@ -111,7 +111,8 @@ void add_compare(CLI::App& app, CompareJob& job)
     add_int(app, "--check-rays", job.check_rays, 0, 1 << 30,
             "rays a frame checked against list; default 0, for about a third of a second");
     add_structure(app, job.search);
-    add(app, "--seed", job.seed, "N", "of what is random; default 0")->check(CLI::NonNegativeNumber);
+    add(app, "--frameless", job.frameless, "LIST", "also try frameless rendering, e.g. 1,1/2,1/4,1/8,1/16,1/32,1/64");
+    add(app, "--seed", job.seed, "N", "which pixels --frameless takes; default 0")->check(CLI::NonNegativeNumber);
     add(app, "--report", job.report, "DIR", "folder for the report; default out/SCENE-report");
     app.add_flag("--json", job.json, "print the results as JSON, not as a table");
     add(app, "--progress", job.progress, "WHEN", "auto, always or never; default auto");

@@ -60,6 +60,14 @@ std::vector<int> spread_frames(int frames)
     return spread;
 }
 
+std::vector<int> shares_of(const std::string& list)
+{
+    std::vector<int> shares;
+    if (list.empty()) return shares;
+    for (const std::string_view share : split(list, ',')) shares.push_back(parse_share("--frameless", share));
+    return shares;
+}
+
 compare::Plan plan_of(const CompareJob& job, const Scene& scene)
 {
     compare::Plan plan;
@@ -72,6 +80,7 @@ compare::Plan plan_of(const CompareJob& job, const Scene& scene)
     plan.threads = job.search.threads;
     plan.repeat = job.repeat;
     plan.check_rays = static_cast<std::size_t>(job.check_rays);
+    plan.frameless = shares_of(job.frameless);
     plan.seed = job.seed;
     return plan;
 }
@@ -84,6 +93,7 @@ void check_words(const CompareJob& job, bool terminal)
     options_of(job.search);
     if (!job.size.empty()) parse_size(job.size);
     if (!job.frames.empty()) parse_frame_list(job.frames);
+    shares_of(job.frameless);
     progress_style(job.progress, terminal);
 }
 

@@ -53,6 +53,7 @@ struct CompareJob {
     int samples = 1;
     int repeat = 5;
     int check_rays = 0;
+    std::string frameless;  ///< shares to try; empty: none
     std::uint64_t seed = 0;
     std::string report;  ///< folder; empty: out/NAME-report
     bool json = false;

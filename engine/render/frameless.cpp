@@ -30,9 +30,9 @@ private:
     std::uint64_t state_;
 };
 
-/// The place at `distance` along the curve through a square of `side` x `side`, from coarse to fine in reverse: the
-/// parts already placed are turned into the quadrant that the next two bits name. source  D. Hilbert, "Ueber die
-/// stetige Abbildung einer Linie auf ein Flaechenstueck", 1891
+/// The place at `distance` along the curve through a square of `side` x `side`, from coarse to fine in reverse: what is
+/// already placed is turned into the quadrant that the next two bits name.
+/// source  D. Hilbert, "Ueber die stetige Abbildung einer Linie auf ein Flaechenstueck", 1891
 glm::ivec2 hilbert_place(std::uint64_t distance, int side)
 {
     glm::ivec2 place(0);

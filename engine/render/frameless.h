@@ -12,8 +12,8 @@ namespace firstray {
 ///
 /// A turn's pixels are random but evenly spread: along a Hilbert curve, of every `turns` pixels in a row, which lie
 /// close together, each turn gets one at random. They come in the curve's order, so that neighbours in a tile of rays
-/// are near each other in the picture. source  G. Bishop et al., "Frameless Rendering: Double Buffering Considered
-/// Harmful", SIGGRAPH 1994
+/// are near each other in the picture.
+/// source  G. Bishop et al., "Frameless Rendering: Double Buffering Considered Harmful", SIGGRAPH 1994
 class FramelessTurns {
 public:
     /// width, height  of the picture, >= 1

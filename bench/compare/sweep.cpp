@@ -1,0 +1,216 @@
+#include "bench/compare/sweep.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "bench/compare/results.h"
+#include "engine/render/frameless.h"
+
+namespace firstray::compare {
+namespace {
+
+constexpr std::size_t most_frames = 2;
+constexpr int rounds = 3;
+constexpr int compared_frames = 4;  // at the end of a frameless run
+
+std::vector<int> some_frames(const std::vector<int>& frames)
+{
+    std::vector<int> some;
+    const std::size_t count = std::min(frames.size(), most_frames);
+    for (std::size_t i = 0; i < count; ++i) some.push_back(frames[(2 * i + 1) * frames.size() / (2 * count)]);
+    return some;
+}
+
+std::set<int> shares_of(const Plan& plan)
+{
+    std::set<int> shares = {1, 4, 16, 64};
+    shares.insert(plan.frameless.begin(), plan.frameless.end());
+    return shares;
+}
+
+/// Which point: threads, and pixels dealt out into how many turns.
+struct Setting {
+    int threads, turns;
+    auto operator<=>(const Setting&) const = default;
+};
+
+/// What a setting took in a round, added up over frames.
+struct Sum {
+    double update_ms = 0.0, trace_ms = 0.0, build_ms = 0.0, rays = 0.0;
+};
+
+/// One contestant on one thread and on all.
+struct Pair {
+    std::string name;
+    std::unique_ptr<Contender> alone;
+    Contender* shared = nullptr;
+    std::map<Setting, std::vector<Sum>> rounds{};
+};
+
+class Sweep {
+public:
+    explicit Sweep(Contest& contest) : contest_(contest), frames_(some_frames(contest.plan().frames)), alone_(1)
+    {
+        const RenderOptions& options = contest.plan().render;
+        for (const int turns : shares_of(contest.plan()))
+            turns_.emplace_back(options.width, options.height, turns, contest.plan().seed);
+        contest.for_each([&](const Row& row, Contender& contender) {
+            auto alone = std::make_unique<Contender>(contest.scene(), contest.textures(), row.contestant,
+                                                     contest.plan().options, alone_);
+            pairs_.push_back({row.contestant.name, std::move(alone), &contender});
+        });
+    }
+
+    void run()
+    {
+        const std::size_t arms = contest_.executor().threads() > 1 ? 2 : 1;
+        contest_.watch().expect_steps(pairs_.size() * frames_.size() * rounds * arms);
+        for (int round = 0; round < rounds; ++round)
+            for (const int frame : frames_)
+                for (Pair& pair : pairs_) {
+                    time(pair, *pair.alone, 1, frame, round);
+                    if (arms == 2) time(pair, *pair.shared, contest_.executor().threads(), frame, round);
+                }
+    }
+
+    Json to_json() const
+    {
+        Json json = {{"frames", frames_}, {"strategies", Json::array()}};
+        for (const Pair& pair : pairs_) {
+            Json points = Json::array();
+            for (const auto& [setting, sums] : pair.rounds) points.push_back(point(setting, sums));
+            json["strategies"].push_back({{"name", pair.name}, {"points", points}});
+        }
+        return json;
+    }
+
+private:
+    void time(Pair& pair, Contender& contender, int threads, int frame, int round)
+    {
+        contest_.watch().step(fmt::format("rays and threads, frame {}: {} on {}", frame, pair.name, threads));
+        const RenderOptions& options = contest_.plan().render;
+        // The pixels of the whole picture in the curve's order too: 1 is then a share like others.
+        for (const FramelessTurns& turns : turns_) {
+            prepare(options);
+            const auto pixels = turns.pixels(static_cast<std::size_t>(round));
+            step_aside(contender, frame, pixels);
+            const FrameStats stats = contender.render_part(frame, options, pixels, picture_);
+            std::vector<Sum>& sums = pair.rounds[{threads, static_cast<int>(turns.count())}];
+            sums.resize(static_cast<std::size_t>(round) + 1);
+            sums.back().update_ms += stats.update_ms;
+            sums.back().trace_ms += stats.trace_ms;
+            sums.back().build_ms += stats.structure.lazy_build_ms;
+            sums.back().rays += static_cast<double>(stats.rays.primary);
+        }
+    }
+
+    /// Goes to a neighbouring frame, so that the update that is timed has something to do, and traces as many rays
+    /// there: what a strategy remembers of the last frame is then what it would remember.
+    void step_aside(Contender& contender, int frame, std::span<const glm::ivec2> pixels)
+    {
+        if (contest_.scene().frames == 1) return;
+        contender.render_part(frame > 0 ? frame - 1 : 1, contest_.plan().render, pixels, picture_);
+    }
+
+    /// A picture that render_pixels takes for a former one.
+    void prepare(const RenderOptions& options)
+    {
+        picture_.width = options.width;
+        picture_.height = options.height;
+        const std::size_t pixels = picture_.pixel_count();
+        picture_.colour.resize(pixels);
+        picture_.distance.resize(pixels);
+        picture_.primitive.resize(pixels);
+        picture_.group.resize(pixels);
+        picture_.age.resize(pixels);
+    }
+
+    Json point(const Setting& setting, const std::vector<Sum>& sums) const
+    {
+        const auto middle = [&](double Sum::*part) {
+            std::vector<double> values;
+            for (const Sum& sum : sums) values.push_back(sum.*part / static_cast<double>(frames_.size()));
+            return median(values);
+        };
+        return {{"threads", setting.threads},         {"turns", setting.turns},
+                {"rays", middle(&Sum::rays)},         {"update_ms", middle(&Sum::update_ms)},
+                {"trace_ms", middle(&Sum::trace_ms)}, {"build_ms", middle(&Sum::build_ms)}};
+    }
+
+    Contest& contest_;
+    std::vector<int> frames_;
+    Executor alone_;
+    std::vector<FramelessTurns> turns_;
+    std::vector<Pair> pairs_;
+    Frame picture_;
+};
+
+/// Frames in a row that end near the middle of what the plan looks at.
+std::vector<int> row_of_frames(const Contest& contest, int turns)
+{
+    const int all = contest.scene().frames;
+    const int count = std::min(all, turns + compared_frames);
+    const int middle = contest.plan().frames[contest.plan().frames.size() / 2];
+    const int first = std::clamp(middle - count / 2, 0, all - count);
+    std::vector<int> frames(static_cast<std::size_t>(count));
+    for (int i = 0; i < count; ++i) frames[static_cast<std::size_t>(i)] = first + i;
+    return frames;
+}
+
+Json frameless_error(Contest& contest, Contender& contender, int turns)
+{
+    const Plan& plan = contest.plan();
+    const std::vector<int> frames = row_of_frames(contest, turns);
+    const FramelessTurns deal(plan.render.width, plan.render.height, turns, plan.seed);
+    const std::size_t compared = std::min<std::size_t>(frames.size(), compared_frames);
+    Frame picture, whole;
+    ImageError sum;
+    double worst = 0.0;
+    for (std::size_t i = 0; i < frames.size(); ++i) {
+        contest.watch().step(fmt::format("frameless 1/{}: frame {}", turns, frames[i]));
+        if (i == 0)
+            contender.render(frames[i], plan.render, picture);
+        else
+            contender.render_part(frames[i], plan.render, deal.pixels(i - 1), picture);
+        if (i + compared < frames.size()) continue;
+        contender.render(frames[i], plan.render, whole);
+        const ImageError error = image_error(whole, picture);
+        worst = std::max(worst, error.rmse());
+        sum += error;
+    }
+    const std::vector<int> looked_at(frames.end() - static_cast<std::ptrdiff_t>(compared), frames.end());
+    return {{"turns", turns},
+            {"frames", looked_at},
+            {"is_refreshed", static_cast<int>(frames.size() - compared) >= turns},
+            {"image", to_json(sum)},
+            {"worst_rmse", worst}};
+}
+
+}  // namespace
+
+Json measure_sweep(Contest& contest)
+{
+    Sweep sweep(contest);
+    sweep.run();
+    return sweep.to_json();
+}
+
+Json measure_frameless(Contest& contest)
+{
+    const Plan& plan = contest.plan();
+    std::size_t steps = 0;
+    for (const int turns : plan.frameless) steps += row_of_frames(contest, turns).size();
+    contest.watch().expect_steps(steps);
+    Json errors = nullptr;
+    contest.for_each([&](const Row& row, Contender& contender) {
+        if (!errors.is_null() || row.contestant.entry->peer) return;
+        errors = Json::array();
+        for (const int turns : plan.frameless) errors.push_back(frameless_error(contest, contender, turns));
+    });
+    return errors;
+}
+
+}  // namespace firstray::compare
