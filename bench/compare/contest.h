@@ -62,6 +62,9 @@ public:
     const Executor& executor() const { return executor_; }
     const std::vector<Row>& rows() const { return rows_; }
     const std::vector<FrameFacts>& frames() const { return frames_; }  ///< those checked so far
+    const RecordedRays& recorded(std::size_t f) const { return rays_[f]; }
+    /// The rays of a frame that are compared with `list`.
+    Sample sample_of(const RecordedRays& rays) const;
     std::size_t complete_rounds() const { return complete_rounds_; }
     double list_ns_per_ray() const;  ///< thread time that `list` took in check()
     const std::string& reference() const { return reference_name_; }
@@ -71,7 +74,6 @@ private:
     void attempt(std::size_t i, const Work& work);
     void check_frame(std::size_t f);
     void measure_frame(std::size_t f, std::size_t round);
-    Sample sample_of(const RecordedRays& rays) const;
 
     const Scene& scene_;
     std::span<const Texture> textures_;

@@ -67,13 +67,12 @@ public:
     void run()
     {
         const std::size_t arms = contest_.executor().threads() > 1 ? 2 : 1;
-        contest_.watch().expect_steps(pairs_.size() * frames_.size() * rounds * arms);
+        contest_.watch().expect_steps(pairs_.size() * rounds * arms);
         for (int round = 0; round < rounds; ++round)
-            for (const int frame : frames_)
-                for (Pair& pair : pairs_) {
-                    time(pair, *pair.alone, 1, frame, round);
-                    if (arms == 2) time(pair, *pair.shared, contest_.executor().threads(), frame, round);
-                }
+            for (Pair& pair : pairs_) {
+                time(pair, *pair.alone, 1, round);
+                if (arms == 2) time(pair, *pair.shared, contest_.executor().threads(), round);
+            }
     }
 
     Json to_json() const
@@ -88,31 +87,25 @@ public:
     }
 
 private:
-    void time(Pair& pair, Contender& contender, int threads, int frame, int round)
+    /// Frame after frame for each share, so that an update comes from another frame where there are several, and what
+    /// a strategy remembers of the last frame is as many rays.
+    void time(Pair& pair, Contender& contender, int threads, int round)
     {
-        contest_.watch().step(fmt::format("rays and threads, frame {}: {} on {}", frame, pair.name, threads));
+        contest_.watch().step(fmt::format("rays and threads, round {}: {} on {}", round + 1, pair.name, threads));
         const RenderOptions& options = contest_.plan().render;
-        // The pixels of the whole picture in the curve's order too: 1 is then a share like others.
-        for (const FramelessTurns& turns : turns_) {
+        for (const FramelessTurns& turns : turns_) {  // one turn is all pixels, in the order of the shares
             prepare(options);
-            const auto pixels = turns.pixels(static_cast<std::size_t>(round));
-            step_aside(contender, frame, pixels);
-            const FrameStats stats = contender.render_part(frame, options, pixels, picture_);
             std::vector<Sum>& sums = pair.rounds[{threads, static_cast<int>(turns.count())}];
             sums.resize(static_cast<std::size_t>(round) + 1);
-            sums.back().update_ms += stats.update_ms;
-            sums.back().trace_ms += stats.trace_ms;
-            sums.back().build_ms += stats.structure.lazy_build_ms;
-            sums.back().rays += static_cast<double>(stats.rays.primary);
+            for (const int frame : frames_) {
+                const auto pixels = turns.pixels(static_cast<std::size_t>(round));
+                const FrameStats stats = contender.render_part(frame, options, pixels, picture_);
+                sums.back().update_ms += stats.update_ms;
+                sums.back().trace_ms += stats.trace_ms;
+                sums.back().build_ms += stats.structure.lazy_build_ms;
+                sums.back().rays += static_cast<double>(stats.rays.primary);
+            }
         }
-    }
-
-    /// Goes to a neighbouring frame, so that the update that is timed has something to do, and traces as many rays
-    /// there: what a strategy remembers of the last frame is then what it would remember.
-    void step_aside(Contender& contender, int frame, std::span<const glm::ivec2> pixels)
-    {
-        if (contest_.scene().frames == 1) return;
-        contender.render_part(frame > 0 ? frame - 1 : 1, contest_.plan().render, pixels, picture_);
     }
 
     /// A picture that render_pixels takes for a former one.

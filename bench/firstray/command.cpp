@@ -23,8 +23,8 @@ constexpr const char* info_examples = R"(Examples:
   firstray info Robot.aff --structure --frame 456
   firstray info museum5.aff --json | jq .triangles)";
 constexpr const char* compare_examples = R"(Examples:
-  firstray compare Robot.aff --size 320x240
-  firstray compare kitchen.aff --strategies grid,obb,obb+obb-top=list,lazy --report out/kitchen)";
+  firstray compare kitchen.aff --strategies grid,obb,obb+obb-top=list,lazy --report out/kitchen
+  firstray compare before/results.json after/results.json)";
 constexpr const char* trace_examples =
     R"(A ray is a line ox,oy,oz,dx,dy,dz,tmin,tmax in world coordinates; tmax may be inf. Line k of the
 answer is t,group,primitive,u,v of ray k, or inf,-1,-1,0,0 where it meets nothing.
@@ -100,6 +100,7 @@ void add_render(CLI::App& app, RenderJob& job)
 void add_compare(CLI::App& app, CompareJob& job)
 {
     add_scene(app, job.scene);
+    add(app, "RESULTS", job.other, " ", "with results.json for SCENE: tell what changed, exit 1 where it is worse");
     add(app, "--strategies", job.strategies, "LIST",
         "of " + strategy_names() +
             "; each perhaps with +FLAG=WORD of its own; default all, list only where it is quick");
@@ -111,7 +112,9 @@ void add_compare(CLI::App& app, CompareJob& job)
     add_int(app, "--check-rays", job.check_rays, 0, 1 << 30,
             "rays a frame checked against list; default 0, for about a third of a second");
     add_structure(app, job.search);
+    add(app, "--pictures", job.pictures, "LIST", "frames that the report shows; default the one of most rays");
     add(app, "--frameless", job.frameless, "LIST", "also try frameless rendering, e.g. 1,1/2,1/4,1/8,1/16,1/32,1/64");
+    app.add_flag("--trade", job.trade, "also try what buys speed with accuracy, for the fastest of our own");
     add(app, "--seed", job.seed, "N", "which pixels --frameless takes; default 0")->check(CLI::NonNegativeNumber);
     add(app, "--report", job.report, "DIR", "folder for the report; default out/SCENE-report");
     app.add_flag("--json", job.json, "print the results as JSON, not as a table");

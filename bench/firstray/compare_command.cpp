@@ -3,7 +3,9 @@
 #include <csignal>
 
 #include "bench/compare/compare.h"
+#include "bench/compare/regression.h"
 #include "bench/compare/table.h"
+#include "bench/compare/trade.h"
 #include "bench/firstray/frame_list.h"
 #include "bench/firstray/jobs.h"
 #include "bench/firstray/progress.h"
@@ -80,8 +82,10 @@ compare::Plan plan_of(const CompareJob& job, const Scene& scene)
     plan.threads = job.search.threads;
     plan.repeat = job.repeat;
     plan.check_rays = static_cast<std::size_t>(job.check_rays);
+    if (!job.pictures.empty()) plan.pictured = frames_of(parse_frame_list(job.pictures), scene.frames);
     plan.frameless = shares_of(job.frameless);
     plan.seed = job.seed;
+    plan.trade = job.trade;
     return plan;
 }
 
@@ -93,30 +97,43 @@ void check_words(const CompareJob& job, bool terminal)
     options_of(job.search);
     if (!job.size.empty()) parse_size(job.size);
     if (!job.frames.empty()) parse_frame_list(job.frames);
+    if (!job.pictures.empty()) parse_frame_list(job.pictures);
     shares_of(job.frameless);
     progress_style(job.progress, terminal);
+}
+
+/// Tells what changed from one run to another, and ends in failure where something is worse.
+void compare_results(const CompareJob& job, Streams streams)
+{
+    const Json changes = compare::compare_runs(compare::read_results(job.scene.file), compare::read_results(job.other));
+    streams.out << (job.json ? changes.dump(2) + "\n" : compare::change_table(changes));
+    if (const int count = changes["regressions"]; count > 0)
+        throw Error(Fault::rendering, fmt::format("{} beyond the noise", count == 1 ? "a regression" : "regressions"));
 }
 
 }  // namespace
 
 void compare_strategies(const CompareJob& job, Streams streams)
 {
+    if (!job.other.empty()) return compare_results(job, streams);
     check_words(job, streams.terminal);
     const Scene scene = read_scene(job.scene);
     const compare::Plan plan = plan_of(job, scene);
     const std::vector<Texture> textures = image::read_textures(scene, {.allow_outside = job.scene.allow_outside});
     const InterruptGuard guard;
-    Json results;
+    compare::Report report;
     {
         Progress progress(streams.err, progress_style(job.progress, streams.terminal), 0);
         const compare::Watch watch{[&](std::size_t steps) { progress.expect(steps); },
                                    [&](const std::string& what) { progress.step(what); },
                                    [] { return interrupted != 0; }};
-        results = compare::compare(scene, textures, plan, {job.command_line, job.scene.file}, watch);
+        report = compare::compare(scene, textures, plan, {job.command_line, job.scene.file}, watch);
     }
     const std::filesystem::path folder = job.report.empty() ? "out/" + scene.name + "-report" : job.report;
-    compare::write_report(folder, results);
+    compare::write_report(folder, report);
+    const Json& results = report.results;
     streams.out << (job.json ? results.dump(2) + "\n" : compare::summary_table(results));
+    if (!job.json && results.contains("trade")) streams.out << compare::trade_summary(results["trade"]);
     streams.err << fmt::format("firstray: report in {}\n", (folder / "index.html").string());
     if (results["interrupted"].get<bool>())
         throw Error(Fault::rendering, "interrupted; the report has what was finished");

@@ -45,6 +45,7 @@ struct RenderJob {
 
 struct CompareJob {
     SceneChoice scene;
+    std::string other;       ///< the second of two results to be compared; the first is then scene.file
     SearchChoice search;     ///< of every strategy
     std::string strategies;  ///< empty: all
     std::string frames;      ///< empty: some, spread over the animation
@@ -53,9 +54,11 @@ struct CompareJob {
     int samples = 1;
     int repeat = 5;
     int check_rays = 0;
+    std::string pictures;   ///< frames to draw; empty: the one of most rays
     std::string frameless;  ///< shares to try; empty: none
     std::uint64_t seed = 0;
     std::string report;  ///< folder; empty: out/NAME-report
+    bool trade = false;  ///< also try what buys speed with accuracy
     bool json = false;
     std::string progress = "auto";
     std::string command_line;

@@ -35,7 +35,7 @@ Plan small_plan(const std::vector<std::string>& names, int frames = 3)
 
 Json run(const Scene& scene, const Plan& plan, const Watch& watch = {})
 {
-    return compare::compare(scene, {}, plan, {"firstray compare test", "test.aff"}, watch);
+    return compare::compare(scene, {}, plan, {"firstray compare test", "test.aff"}, watch).results;
 }
 
 Json row(const Json& results, const std::string& name)
@@ -181,7 +181,7 @@ TEST_CASE("a report's folder holds results that read back, and other files are r
     const test::TempFolder folder;
     const Scene scene = moving_square();
     const Json results = run(scene, small_plan({"grid", "lazy"}));
-    write_report(folder.path() / "a" / "b", results);
+    write_report(folder.path() / "a" / "b", {results, {}});
     CHECK(read_results(folder.path() / "a" / "b") == results);
     CHECK(read_results(folder.path() / "a" / "b" / "results.json") == results);
     CHECK_THROWS_AS(read_results(folder.path()), FileError);

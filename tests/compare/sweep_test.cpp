@@ -24,7 +24,7 @@ Json run(const Scene& scene, int frames, int threads, std::vector<int> frameless
     plan.threads = threads;
     plan.repeat = 1;
     plan.frameless = std::move(frameless);
-    return compare::compare(scene, {}, plan, {"test", "test.aff"}, {});
+    return compare::compare(scene, {}, plan, {"test", "test.aff"}, {}).results;
 }
 
 }  // namespace

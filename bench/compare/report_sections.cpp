@@ -1,0 +1,224 @@
+#include "bench/compare/report_sections.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "bench/compare/html.h"
+#include "bench/compare/table.h"
+#include "bench/compare/text.h"
+#include "bench/compare/verdict.h"
+
+namespace firstray::compare {
+namespace {
+
+std::string paragraph(const std::string& text, const char* type = "note")
+{
+    return fmt::format("<p class=\"{}\">{}</p>\n", type, escaped(text));
+}
+
+std::string median(const Json& spread)
+{
+    return short_number(spread["median"]);
+}
+
+std::string percent(double share)
+{
+    return short_number(100.0 * share) + " %";
+}
+
+std::string decibels(const Json& psnr)
+{
+    return psnr.is_null() ? "∞" : fmt::format("{:.1f}", psnr.get<double>());
+}
+
+/// Time, then accuracy.
+std::vector<std::string> summary_cells(const Json& strategy)
+{
+    std::vector<std::string> cells = {strategy["name"].get<std::string>()};
+    const Json &times = strategy["times"], &accuracy = strategy["accuracy"], &image = accuracy["image"];
+    if (times.is_null()) {
+        cells.resize(17, "–");
+        cells.back() = remark(strategy);
+        return cells;
+    }
+    const Json& total = times["total_ms"];
+    for (const char* key : {"update_ms", "trace_ms", "lazy_build_ms", "structure_ms"})
+        cells.push_back(median(times[key]));
+    cells.push_back(median(total));
+    cells.push_back(fmt::format("{} to {}", short_number(total["least"]), short_number(total["most"])));
+    for (const char* kind : {"primary", "shadow", "secondary"}) cells.push_back(median(times["ns_per_ray"][kind]));
+    cells.push_back(short_number(accuracy["missed_per_million"]));
+    cells.push_back(short_number(accuracy["false_per_million"]));
+    cells.push_back(grouped(accuracy["rays"]));
+    cells.push_back(short_number(accuracy["t_error_p999"]));
+    cells.push_back(short_number(image["rmse"]));
+    cells.push_back(decibels(image["psnr"]));
+    cells.push_back(percent(image["differing_share"]));
+    cells.push_back(remark(strategy).empty() ? strategy["status"].get<std::string>() : remark(strategy));
+    return cells;
+}
+
+std::string reign_list(const Json& reigns, double unit, const char* what)
+{
+    std::vector<std::string> parts;
+    for (const Json& reign : reigns)
+        parts.push_back(fmt::format("{} from {} to {}", reign["fastest"].get<std::string>(),
+                                    short_number(reign["from"].get<double>() * unit),
+                                    short_number(reign["to"].get<double>() * unit)));
+    return parts.empty() ? "" : paragraph(fmt::format("Fastest by {}: {}.", what, listed(parts)), "plain");
+}
+
+std::string law_table(const Json& prediction)
+{
+    HtmlTable table({"strategy", "update, one|processor, ms", "of that|not shared, ms", "lazy building,|ms",
+                     "ns per primary ray|and its others", "searching|of that, ns",
+                     "update as long as|trace at, processors", "total at 16|processors, ms", "at 32, ms",
+                     "at 128, ms"});
+    for (const Json& law : prediction["strategies"]) {
+        const double all = law["ns_per_primary_ray"], other = law["other_ns_per_primary_ray"];
+        const Json& totals = law["totals"];
+        const double update = law["update_serial_ms"].get<double>() + law["update_shared_ms"].get<double>();
+        table.add({law["name"], short_number(update), short_number(law["update_serial_ms"]),
+                   short_number(law["build_ms"]), short_number(all), short_number(all - other),
+                   law["balanced_processors"].is_null() ? "∞" : short_number(law["balanced_processors"]),
+                   short_number(totals[4]["total_ms"]), short_number(totals[5]["total_ms"]),
+                   short_number(totals[7]["total_ms"])});
+    }
+    return table.html();
+}
+
+std::string check_table(const Json& prediction)
+{
+    HtmlTable table({"strategy", "threads", "pixels|divided by", "predicted, ms", "measured, ms", "error"});
+    for (const Json& law : prediction["strategies"])
+        for (const Json& point : law["checked"])
+            table.add({law["name"], point["threads"].dump(), point["turns"].dump(), short_number(point["predicted_ms"]),
+                       short_number(point["measured_ms"]),
+                       fmt::format("{:+.0f} %", 100.0 * point["error"].get<double>())});
+    return "<details><summary>Prediction against measurement, point by point</summary>\n" + table.html() +
+           "</details>\n";
+}
+
+std::string break_even_list(const Json& prediction)
+{
+    std::string text;
+    for (const Json& entry : prediction["break_even"])
+        text += fmt::format("<li>{} below, {} above {} primary rays a frame</li>\n",
+                            escaped(entry["below"].get<std::string>()), escaped(entry["above"].get<std::string>()),
+                            grouped(static_cast<std::uint64_t>(entry["rays"].get<double>())));
+    if (text.empty())
+        return paragraph("No two strategies break even within a thousandth to a hundred times these rays.");
+    return "<p>Break-even points on this machine's threads:</p><ul>\n" + text + "</ul>\n";
+}
+
+}  // namespace
+
+std::string summary_section(const Json& results)
+{
+    HtmlTable table({"strategy", "update,|ms", "trace,|ms", "lazy building,|ms", "structure|alone, ms", "total,|ms",
+                     "least to most|of the rounds", "ns per|primary ray", "shadow", "other", "missed hits|per million",
+                     "false hits|per million", "of N|rays", "error of t,|99.9th", "RMSE", "PSNR,|dB",
+                     "pixels that|differ", "agreement"});
+    for (const Json& strategy : results["strategies"]) table.add(summary_cells(strategy), !counts(strategy));
+    return table.html() + paragraph(fmt::format("Means over the frames, medians over the rounds; strategies took turns "
+                                                "frame by frame. Trace has shading, "
+                                                "textures and lazy building in it; lazy building is added up over "
+                                                "threads; structure alone is the same rays "
+                                                "asked again with nothing else. Hits are compared with list, which "
+                                                "tests every primitive (0 of N means less "
+                                                "than 3/N with 95 % confidence); pictures with {}'s. Pixels differ "
+                                                "when a channel does by more than half of "
+                                                "1/255.",
+                                                results["settings"]["reference"].get<std::string>()));
+}
+
+std::string structure_section(const Json& results)
+{
+    HtmlTable table({"strategy", "grids", "subgrids", "filled|voxels", "built by rays|this frame", "kept from|before",
+                     "never|needed", "references per|primitive", "largest|list", "regridded|by the update", "memory",
+                     "at most"});
+    for (const Json& strategy : results["strategies"]) {
+        if (strategy["frames"].empty()) continue;
+        const Json& s = strategy["frames"].back()["structure"];
+        const auto count = [&](const char* key) { return grouped(s[key].get<std::uint64_t>()); };
+        const auto built = s["built_voxels"].get<std::uint64_t>(), kept = s["kept_voxels"].get<std::uint64_t>();
+        const auto filled = s["filled_voxels"].get<std::uint64_t>();
+        const bool is_lazy = built > 0;
+        const double primitives = std::max(1.0, s["primitives"].get<double>());
+        table.add({strategy["name"], count("grids"), count("subgrids"), grouped(filled),
+                   is_lazy ? grouped(built - std::min(kept, built)) : "–", is_lazy ? grouped(kept) : "–",
+                   is_lazy ? grouped(filled - std::min(built, filled)) : "–",
+                   short_number(s["references"].get<double>() / primitives), count("largest_list"), count("regridded"),
+                   megabytes(s["bytes"]), megabytes(s["peak_bytes"])});
+    }
+    return table.html() + paragraph(
+                              "After the last frame of the last round. Voxels are told of structures that build them "
+                              "when a ray enters; those of subgrids are not in that count.");
+}
+
+std::string prediction_section(const Json& results)
+{
+    const Json& prediction = results["prediction"];
+    const double rays = prediction["rays"];
+    std::string text = reign_list(prediction["fastest_by_processors"], 1.0, "number of processors");
+    text +=
+        reign_list(prediction["fastest_by_rays"], 1e-3, "thousands of primary rays a frame, on this machine's threads");
+    text += break_even_list(prediction) + law_table(prediction);
+    text +=
+        paragraph(fmt::format("The law: total = update (not shared) + (update (shared) + lazy building + ns per ray x "
+                              "rays) / processors, fitted "
+                              "to whole frames of {} primary rays on one thread, and the update's on all threads too. "
+                              "Held against {} threads and "
+                              "a quarter to a 64th of the rays it is off by {} in the median, {} at most.",
+                              grouped(static_cast<std::uint64_t>(rays)), prediction["threads"].dump(),
+                              percent(prediction["median_error"]), percent(prediction["largest_error"])));
+    return text + check_table(prediction);
+}
+
+std::string frameless_section(const Json& results)
+{
+    HtmlTable table({"pixels|divided by", "RMSE", "worst frame's", "PSNR, dB", "largest|difference",
+                     "pixels that|differ", "another hue|(Yee)", "frames|compared", ""});
+    for (const Json& entry : results["frameless"]) {
+        const Json& image = entry["image"];
+        const double perceived = image["perceived"].get<double>() / std::max(1.0, image["pixels"].get<double>());
+        table.add({entry["turns"].dump(), short_number(image["rmse"]), short_number(entry["worst_rmse"]),
+                   decibels(image["psnr"]), short_number(image["largest"]), percent(image["differing_share"]),
+                   percent(perceived), std::to_string(entry["frames"].size()),
+                   entry["is_refreshed"].get<bool>() ? "" : "the animation is too short for all pixels"});
+    }
+    return table.html() +
+           paragraph(
+               "Frames in a row; the last ones, when every pixel has been traced anew, are compared with whole frames "
+               "of the same times. The error is lag, not noise. It does not depend on the strategy; times are in the "
+               "chart of fewer rays.");
+}
+
+std::string method_section(const Json& results)
+{
+    const Json &machine = results["machine"], &scene = results["scene"];
+    std::string text = "<ul>\n";
+    const auto item = [&](const std::string& line) { text += "<li>" + escaped(line) + "</li>\n"; };
+    item(fmt::format("Scene: {}, {} primitives in {} groups, {} lights, {} frames.", scene["file"].get<std::string>(),
+                     grouped(scene["primitives"]), grouped(scene["groups"]), scene["lights"].dump(),
+                     scene["frames"].dump()));
+    item(fmt::format("Machine: {}, {} threads, {}.", machine["cpu"].get<std::string>(), machine["threads"].dump(),
+                     machine["instruction_set"].get<std::string>()));
+    item(fmt::format("firstray {}, {}; {}.", machine["version"].get<std::string>(),
+                     machine["compiler"].get<std::string>(), results["created"].get<std::string>()));
+    text += "<li>Command: <code>" + escaped(results["command"].get<std::string>()) + "</code></li>\n";
+    item(
+        "Every frame was first rendered and checked by every strategy, which warms up, then timed in rounds; a "
+        "strategy is "
+        "called faster where it was so in every round, three or more, and by a per cent in the median.");
+    item(fmt::format("list took {} per ray on one thread.",
+                     milliseconds(1e-6 * results["list_ns_per_ray"].get<double>())));
+    for (const Json& strategy : results["strategies"])
+        item(fmt::format("{}: {}", strategy["name"].get<std::string>(), strategy["summary"].get<std::string>()));
+    return text + "</ul>\n" +
+           paragraph("The same numbers, and every round's, are in results.json and results.csv beside this page.");
+}
+
+}  // namespace firstray::compare
