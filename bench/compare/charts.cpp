@@ -31,6 +31,16 @@ void choose_y_axis(Chart& chart)
     chart.y_log = low > 0.0 && high > wide_range * low;
 }
 
+/// Moves the series a little to the left and right of each other, so that their bars do not hide one another.
+void set_apart(Chart& chart)
+{
+    if (chart.series.empty() || chart.series[0].x.size() < 2) return;
+    const double range = chart.series[0].x.back() - chart.series[0].x.front();
+    const double middle = 0.5 * static_cast<double>(chart.series.size() - 1);
+    for (std::size_t i = 0; i < chart.series.size(); ++i)
+        for (double& x : chart.series[i].x) x += 0.008 * range * (static_cast<double>(i) - middle);
+}
+
 std::vector<double> values_of(const Json& rounds)
 {
     std::vector<double> values;
@@ -54,6 +64,7 @@ Chart by_frame(const Json& results, const char* key, Chart chart)
         }
         chart.series.push_back(std::move(series));
     }
+    set_apart(chart);
     choose_y_axis(chart);
     return chart;
 }
@@ -156,7 +167,8 @@ Chart trade_chart(const Json& results)
                 .caption = "Time against error: settings to the lower left are better",
                 .x_label = "total, ms per frame",
                 .y_label = "RMSE against the reference",
-                .x_log = true};
+                .x_log = true,
+                .x_marks = false};
     if (!has(results, "trade")) return chart;
     Series all{.name = "settings", .style = 0, .points_only = true}, frontier{.name = "frontier", .style = 1};
     std::vector<std::pair<double, double>> best;

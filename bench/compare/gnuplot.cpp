@@ -6,11 +6,13 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <limits>
 
 #include "bench/compare/html.h"
 
@@ -69,6 +71,25 @@ std::string label_of(const Chart& chart, std::size_t i)
                        number(series.x[i]), number(series.y[i]));
 }
 
+/// Wide enough for all points; a logarithmic axis has its marks at the first series' points.
+std::string x_axis(const Chart& chart)
+{
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    for (const Series& series : chart.series)
+        for (const double x : series.x) {
+            low = std::min(low, x);
+            high = std::max(high, x);
+        }
+    if (!(low < high)) return "";  // gnuplot's own, around a single point
+    const double margin = 0.04 * (high - low);
+    if (!chart.x_log) return fmt::format("set xrange [{}:{}]\n", number(low - margin), number(high + margin));
+    std::string text = fmt::format("set logscale x\nset xrange [{}:{}]\n", number(0.9 * low), number(1.1 * high));
+    if (!chart.x_marks) return text + "set format x \"%g\"\n";
+    std::string marks;
+    for (const double x : chart.series.front().x) marks += (marks.empty() ? "" : ", ") + number(x);
+    return text + "set xtics (" + marks + ")\n";
+}
+
 void replace_all(std::string& text, const std::string& what, const std::string& by)
 {
     for (std::size_t at = 0; (at = text.find(what, at)) != std::string::npos; at += by.size())
@@ -118,11 +139,11 @@ private:
 std::string gnuplot_script(const Chart& chart, const std::string& file)
 {
     std::string text = fmt::format(
-        "set terminal svg size 560,400 dynamic font \"sans-serif,14\" name {}\nset output {}\n"
+        "set terminal svg size 520,400 dynamic font \"sans-serif,14\" name {}\nset output {}\n"
         "set xlabel {} noenhanced\nset ylabel {} noenhanced\nset grid lc rgb \"#999999\" lw 0.5 dt 3\n"
-        "set key below horizontal\nset border 3\nset tics nomirror\nset offsets graph 0.04, graph 0.04, 0, 0\n",
+        "set key below horizontal maxrows 3 samplen 2 width -3\nset border 3\nset tics nomirror\n",
         quoted(chart.id), quoted(file), quoted(chart.x_label), quoted(chart.y_label));
-    if (chart.x_log) text += "set logscale x\nset format x \"%g\"\nset offsets 0, 0, 0, 0\n";
+    text += x_axis(chart);
     text += chart.y_log ? "set logscale y\nset format y \"%g\"\n" : "set yrange [0:*]\n";
     for (std::size_t i = 0; i < chart.series.size(); ++i) text += data_block(chart.series[i], i);
     for (std::size_t i = 0; i < chart.labels.size(); ++i) text += label_of(chart, i);

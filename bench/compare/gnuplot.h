@@ -19,6 +19,7 @@ struct Chart {
     std::string caption;  ///< plain text
     std::string x_label{}, y_label{};
     bool x_log = false, y_log = false;
+    bool x_marks = true;  ///< a logarithmic x axis is marked at the points of the first series
     std::vector<Series> series{};
     std::vector<std::string> labels{};  ///< at the points of the first series, where there are any
 };

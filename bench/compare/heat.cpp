@@ -10,7 +10,7 @@
 namespace firstray::compare {
 namespace {
 
-constexpr double least_share = 0.02, most_share = 0.999;  // of the pixels, beyond which colours no longer change
+constexpr double least_share = 0.02, most_share = 0.995;  // of the pixels, beyond which colours no longer change
 
 /// OKLab to linear RGB, Ottosson's constants.
 glm::dvec3 linear_rgb(double lightness, double a, double b)

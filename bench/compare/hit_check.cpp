@@ -9,11 +9,15 @@ namespace {
 constexpr double tolerance = 1e-3;  // of t
 
 template <typename Real>
-RayAnswer answer_of(const RayTile<Real>& tile, std::size_t lane, RayQuery query)
+RayAnswer answer_of(const RayTile<Real>& tile, std::size_t lane, const RecordedRays::Batch& batch)
 {
-    if (tile.primitive[lane] == no_primitive) return {};
-    if (query == RayQuery::occluded) return {0.0, 0};
-    return {static_cast<double>(tile.t_max[lane]), tile.primitive[lane]};
+    RayAnswer answer;
+    answer.kind = batch.kind;
+    if (tile.primitive[lane] == no_primitive) return answer;
+    const bool has_place = batch.query == RayQuery::closest;
+    answer.t = has_place ? static_cast<double>(tile.t_max[lane]) : 0.0;
+    answer.primitive = has_place ? tile.primitive[lane] : 0;
+    return answer;
 }
 
 template <typename Real>
@@ -54,7 +58,7 @@ std::vector<RayAnswer> collect(const Strategy<Real>& strategy, const RecordedRay
         search(strategy, batch.query, *tile);
         std::size_t lane = keep_first;
         for (std::size_t i = starts[b]; i < starts[b + 1]; ++i, lane += keep_step)
-            found[i] = answer_of(*tile, lane, batch.query);
+            found[i] = answer_of(*tile, lane, batch);
     });
     return found;
 }
@@ -96,6 +100,7 @@ HitAgreement& HitAgreement::operator+=(const HitAgreement& other)
     invented += other.invented;
     moved += other.moved;
     unlike += other.unlike;
+    for (std::size_t kind = 0; kind < ray_kinds; ++kind) wrong[kind] += other.wrong[kind];
     t_errors.insert(t_errors.end(), other.t_errors.begin(), other.t_errors.end());
     return *this;
 }
@@ -109,6 +114,7 @@ HitAgreement agreement(std::span<const RayAnswer> expected, std::span<const RayA
         sum.hits += should_hit;
         sum.missed += should_hit && !hit;
         sum.invented += hit && !should_hit;
+        at(sum.wrong, expected[i].kind) += should_hit != hit;
         sum.unlike += expected[i].t != found[i].t || expected[i].primitive != found[i].primitive;
         if (!should_hit || !hit) continue;
         const double off = std::abs(found[i].t - expected[i].t);

@@ -14,6 +14,7 @@ struct RayAnswer {
     double t = std::numeric_limits<double>::infinity();  ///< of the nearest hit; infinity for a miss, 0 where only
                                                          ///< whether was asked
     PrimitiveId primitive = no_primitive;                ///< likewise, 0
+    RayKind kind = RayKind::primary;
 };
 
 /// Which lanes of the recorded batches are looked at: every step-th ray of all.
@@ -40,6 +41,7 @@ struct HitAgreement {
     std::uint64_t invented = 0;        ///< should have missed
     std::uint64_t moved = 0;           ///< hit, but at a t that is off by more than 1e-3 of it
     std::uint64_t unlike = 0;          ///< anything not the same to the last bit, the primitive included
+    ByKind<std::uint64_t> wrong{};     ///< missed or invented, by the kind of ray
     std::vector<double> t_errors;      ///< relative, of rays that hit and should have
 
     double per_million(std::uint64_t count) const;

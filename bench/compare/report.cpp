@@ -25,6 +25,9 @@ std::string answer(const Json& results)
         text += "<p><strong>Fastest:</strong> " + escaped(verdict["all"]["sentence"].get<std::string>()) + "</p>";
     if (!verdict["own"].is_null() && verdict["own"]["fastest"] != verdict["all"]["fastest"])
         text += "<p><strong>Of our own:</strong> " + escaped(verdict["own"]["sentence"].get<std::string>()) + "</p>";
+    if (const Json& marked = verdict["faster_but_marked"]; !marked.empty())
+        text += "<p><strong>Faster, but marked:</strong> " + escaped(listed(marked)) +
+                ", whose answers differ from the reference's: see the accuracy columns.</p>";
     return text + "</div>\n";
 }
 
@@ -78,6 +81,20 @@ std::string triptych(const Triptych& triptych, int frame)
            cell(triptych.time, "time per pixel", "it does not tell time by ray") + "</div>\n";
 }
 
+/// Strategies of which there is a picture alone stand beside each other.
+std::string plain_pictures(const std::vector<Triptych>& triptychs, int frame)
+{
+    std::string cells, names;
+    for (const Triptych& shown : triptychs) {
+        if (!shown.structure.empty() || !shown.time.empty()) continue;
+        const std::string title = fmt::format("{}, frame {}: picture", shown.name, frame);
+        cells += "<figure>" + inline_png(shown.picture, title) + "<figcaption>" + escaped(shown.name) +
+                 "</figcaption></figure>\n";
+    }
+    if (cells.empty()) return "";
+    return "<h3>Without a structure to draw or time by ray</h3>\n<div class=\"triptych\">\n" + cells + "</div>\n";
+}
+
 std::string scale_bar(const HeatScale& scale)
 {
     const auto microseconds = [](double ns) { return short_number(1e-3 * ns) + " µs"; };
@@ -94,7 +111,9 @@ std::string pictures_section(const std::vector<FramePictures>& pictures)
         if (frame.triptychs.empty()) continue;
         text += fmt::format("<h2>Frame {}: picture, structure, time per pixel</h2>\n", frame.frame);
         text += scale_bar(frame.scale);
-        for (const Triptych& shown : frame.triptychs) text += triptych(shown, frame.frame);
+        for (const Triptych& shown : frame.triptychs)
+            if (!shown.structure.empty() || !shown.time.empty()) text += triptych(shown, frame.frame);
+        text += plain_pictures(frame.triptychs, frame.frame);
     }
     return text;
 }

@@ -33,31 +33,92 @@ std::string decibels(const Json& psnr)
     return psnr.is_null() ? "∞" : fmt::format("{:.1f}", psnr.get<double>());
 }
 
-/// Time, then accuracy.
-std::vector<std::string> summary_cells(const Json& strategy)
+/// Behind the numbers of a table of speed.
+void add_accuracy(const Json& strategy, std::vector<std::string>& cells)
 {
-    std::vector<std::string> cells = {strategy["name"].get<std::string>()};
-    const Json &times = strategy["times"], &accuracy = strategy["accuracy"], &image = accuracy["image"];
-    if (times.is_null()) {
-        cells.resize(17, "–");
-        cells.back() = remark(strategy);
-        return cells;
-    }
-    const Json& total = times["total_ms"];
-    for (const char* key : {"update_ms", "trace_ms", "lazy_build_ms", "structure_ms"})
-        cells.push_back(median(times[key]));
-    cells.push_back(median(total));
-    cells.push_back(fmt::format("{} to {}", short_number(total["least"]), short_number(total["most"])));
-    for (const char* kind : {"primary", "shadow", "secondary"}) cells.push_back(median(times["ns_per_ray"][kind]));
+    const Json &accuracy = strategy["accuracy"], &image = accuracy["image"];
     cells.push_back(short_number(accuracy["missed_per_million"]));
     cells.push_back(short_number(accuracy["false_per_million"]));
-    cells.push_back(grouped(accuracy["rays"]));
     cells.push_back(short_number(accuracy["t_error_p999"]));
     cells.push_back(short_number(image["rmse"]));
     cells.push_back(decibels(image["psnr"]));
+    cells.push_back(short_number(image["largest"]));
     cells.push_back(percent(image["differing_share"]));
     cells.push_back(remark(strategy).empty() ? strategy["status"].get<std::string>() : remark(strategy));
-    return cells;
+}
+
+constexpr std::size_t accuracy_columns = 8;
+
+/// How many rays everyone's hits were compared on.
+std::uint64_t checked_rays(const Json& results)
+{
+    std::uint64_t rays = 0;
+    for (const Json& strategy : results["strategies"])
+        rays = std::max(rays, strategy["accuracy"]["rays"].get<std::uint64_t>());
+    return rays;
+}
+
+std::vector<std::string> with_accuracy(const Json& results, std::vector<std::string> headings)
+{
+    const std::string n = grouped(checked_rays(results));
+    for (const std::string& heading : {"missed/M|of " + n, "false/M|of " + n, std::string("error of t,|99.9th"),
+                                       std::string("RMSE"), std::string("PSNR,|dB"), std::string("largest|difference"),
+                                       std::string("pixels|differ"), std::string("agreement")})
+        headings.push_back(heading);
+    return headings;
+}
+
+/// A row of a table of speed: what `speed` gives, then accuracy; a reason where nothing was timed.
+template <typename Speed>
+void add_row(const Json& strategy, std::size_t speed_columns, const Speed& speed, HtmlTable& table)
+{
+    std::vector<std::string> cells = {strategy["name"].get<std::string>()};
+    if (strategy["times"].is_null()) {
+        cells.resize(speed_columns + accuracy_columns, "–");
+        cells.back() = remark(strategy);
+    } else {
+        speed(strategy["times"], cells);
+        add_accuracy(strategy, cells);
+    }
+    table.add(std::move(cells), !counts(strategy));
+}
+
+std::string total_table(const Json& results)
+{
+    HtmlTable table(with_accuracy(
+        results, {"strategy", "update,|ms", "trace,|ms", "lazy,|ms", "total,|ms", "least to most|of the rounds"}));
+    for (const Json& strategy : results["strategies"])
+        add_row(
+            strategy, 6,
+            [](const Json& times, std::vector<std::string>& cells) {
+                for (const char* key : {"update_ms", "trace_ms", "lazy_build_ms", "total_ms"})
+                    cells.push_back(median(times[key]));
+                const Json& total = times["total_ms"];
+                cells.push_back(fmt::format("{} to {}", short_number(total["least"]), short_number(total["most"])));
+            },
+            table);
+    return table.html();
+}
+
+std::string alone_table(const Json& results)
+{
+    HtmlTable table(
+        with_accuracy(results, {"strategy", "structure|alone, ms", "ns per|primary", "shadow", "other ray"}));
+    for (const Json& strategy : results["strategies"])
+        add_row(
+            strategy, 5,
+            [](const Json& times, std::vector<std::string>& cells) {
+                cells.push_back(median(times["structure_ms"]));
+                for (const char* kind : {"primary", "shadow", "secondary"})
+                    cells.push_back(median(times["ns_per_ray"][kind]));
+            },
+            table);
+    return table.html();
+}
+
+std::string whole_or_short(double value)
+{
+    return value == std::floor(value) && value < 1e6 ? fmt::format("{:.0f}", value) : short_number(value);
 }
 
 std::string reign_list(const Json& reigns, double unit, const char* what)
@@ -65,17 +126,16 @@ std::string reign_list(const Json& reigns, double unit, const char* what)
     std::vector<std::string> parts;
     for (const Json& reign : reigns)
         parts.push_back(fmt::format("{} from {} to {}", reign["fastest"].get<std::string>(),
-                                    short_number(reign["from"].get<double>() * unit),
-                                    short_number(reign["to"].get<double>() * unit)));
+                                    whole_or_short(reign["from"].get<double>() * unit),
+                                    whole_or_short(reign["to"].get<double>() * unit)));
     return parts.empty() ? "" : paragraph(fmt::format("Fastest by {}: {}.", what, listed(parts)), "plain");
 }
 
 std::string law_table(const Json& prediction)
 {
-    HtmlTable table({"strategy", "update, one|processor, ms", "of that|not shared, ms", "lazy building,|ms",
-                     "ns per primary ray|and its others", "searching|of that, ns",
-                     "update as long as|trace at, processors", "total at 16|processors, ms", "at 32, ms",
-                     "at 128, ms"});
+    HtmlTable table({"strategy", "update, one|processor, ms", "of that not|shared, ms", "lazy,|ms",
+                     "ns per primary|with its others", "searching,|ns", "balance at,|processors", "total at|16, ms",
+                     "at 32,|ms", "at 128,|ms"});
     for (const Json& law : prediction["strategies"]) {
         const double all = law["ns_per_primary_ray"], other = law["other_ns_per_primary_ray"];
         const Json& totals = law["totals"];
@@ -115,23 +175,37 @@ std::string break_even_list(const Json& prediction)
 
 }  // namespace
 
+/// Which rays the wrong hits of strategies are of.
+std::string wrong_hits(const Json& results)
+{
+    std::string text;
+    for (const Json& strategy : results["strategies"]) {
+        const Json& wrong = strategy["accuracy"]["wrong_by_kind"];
+        const auto count = [&](const char* kind) { return wrong[kind].get<std::uint64_t>(); };
+        if (count("primary") + count("shadow") + count("secondary") == 0) continue;
+        text += paragraph(
+            fmt::format("{}: of its missed and false hits {} are of primary, {} of shadow and {} of other rays.",
+                        strategy["name"].get<std::string>(), grouped(count("primary")), grouped(count("shadow")),
+                        grouped(count("secondary"))));
+    }
+    return text;
+}
+
 std::string summary_section(const Json& results)
 {
-    HtmlTable table({"strategy", "update,|ms", "trace,|ms", "lazy building,|ms", "structure|alone, ms", "total,|ms",
-                     "least to most|of the rounds", "ns per|primary ray", "shadow", "other", "missed hits|per million",
-                     "false hits|per million", "of N|rays", "error of t,|99.9th", "RMSE", "PSNR,|dB",
-                     "pixels that|differ", "agreement"});
-    for (const Json& strategy : results["strategies"]) table.add(summary_cells(strategy), !counts(strategy));
-    return table.html() + paragraph(fmt::format("Means over the frames, medians over the rounds; strategies took turns "
-                                                "frame by frame. Trace has shading, "
-                                                "textures and lazy building in it; lazy building is added up over "
-                                                "threads; structure alone is the same rays "
-                                                "asked again with nothing else. Hits are compared with list, which "
-                                                "tests every primitive (0 of N means less "
-                                                "than 3/N with 95 % confidence); pictures with {}'s. Pixels differ "
-                                                "when a channel does by more than half of "
-                                                "1/255.",
-                                                results["settings"]["reference"].get<std::string>()));
+    return total_table(results) +
+           paragraph(fmt::format(
+               "Means over the frames, medians over the rounds; strategies took turns frame by frame. Trace has "
+               "shading, "
+               "textures and lazy building in it; lazy is the building alone, added up over threads. Hits are compared "
+               "with list, which tests every primitive (0 of N means less than 3/N with 95 % confidence); pictures "
+               "with "
+               "{}'s. Pixels differ when a channel does by more than half of 1/255.",
+               results["settings"]["reference"].get<std::string>())) +
+           wrong_hits(results) + "<h3>The structure alone</h3>\n" + alone_table(results) +
+           paragraph(
+               "The frame's rays asked again of the structure as it then stands, and nothing else: ns are a thread's, "
+               "ms are all threads'. Other rays are reflected and transmitted ones.");
 }
 
 std::string structure_section(const Json& results)
@@ -142,16 +216,17 @@ std::string structure_section(const Json& results)
     for (const Json& strategy : results["strategies"]) {
         if (strategy["frames"].empty()) continue;
         const Json& s = strategy["frames"].back()["structure"];
-        const auto count = [&](const char* key) { return grouped(s[key].get<std::uint64_t>()); };
+        const bool is_told = s["references"].get<std::uint64_t>() > 0;
+        const auto count = [&](const char* key) { return is_told ? grouped(s[key].get<std::uint64_t>()) : "–"; };
         const auto built = s["built_voxels"].get<std::uint64_t>(), kept = s["kept_voxels"].get<std::uint64_t>();
         const auto filled = s["filled_voxels"].get<std::uint64_t>();
         const bool is_lazy = built > 0;
         const double primitives = std::max(1.0, s["primitives"].get<double>());
-        table.add({strategy["name"], count("grids"), count("subgrids"), grouped(filled),
+        table.add({strategy["name"], count("grids"), count("subgrids"), count("filled_voxels"),
                    is_lazy ? grouped(built - std::min(kept, built)) : "–", is_lazy ? grouped(kept) : "–",
                    is_lazy ? grouped(filled - std::min(built, filled)) : "–",
-                   short_number(s["references"].get<double>() / primitives), count("largest_list"), count("regridded"),
-                   megabytes(s["bytes"]), megabytes(s["peak_bytes"])});
+                   is_told ? short_number(s["references"].get<double>() / primitives) : "–", count("largest_list"),
+                   count("regridded"), megabytes(s["bytes"]), megabytes(s["peak_bytes"])});
     }
     return table.html() + paragraph(
                               "After the last frame of the last round. Voxels are told of structures that build them "
@@ -166,14 +241,16 @@ std::string prediction_section(const Json& results)
     text +=
         reign_list(prediction["fastest_by_rays"], 1e-3, "thousands of primary rays a frame, on this machine's threads");
     text += break_even_list(prediction) + law_table(prediction);
-    text +=
-        paragraph(fmt::format("The law: total = update (not shared) + (update (shared) + lazy building + ns per ray x "
-                              "rays) / processors, fitted "
-                              "to whole frames of {} primary rays on one thread, and the update's on all threads too. "
-                              "Held against {} threads and "
-                              "a quarter to a 64th of the rays it is off by {} in the median, {} at most.",
-                              grouped(static_cast<std::uint64_t>(rays)), prediction["threads"].dump(),
-                              percent(prediction["median_error"]), percent(prediction["largest_error"])));
+    text += paragraph(fmt::format(
+        "Balance is the number of processors at which tracing takes no longer than an update that is not shared: more "
+        "hardly "
+        "help. The law: total = update (not shared) + (update (shared) + lazy building + ns per ray x "
+        "rays) / processors, fitted "
+        "to whole frames of {} primary rays on one thread, and the update's on all threads too. "
+        "Held against {} threads and "
+        "a quarter to a 64th of the rays (the least of three rounds each) it is off by {} in the median, {} at most.",
+        grouped(static_cast<std::uint64_t>(rays)), prediction["threads"].dump(), percent(prediction["median_error"]),
+        percent(prediction["largest_error"])));
     return text + check_table(prediction);
 }
 

@@ -22,12 +22,12 @@ p, li { max-width: 75ch; overflow-wrap: anywhere; }
 .note, figcaption { color: var(--note); font-size: 0.875rem; }
 .scroll { overflow-x: auto; max-width: 100%; }
 table { border-collapse: collapse; font-size: 0.875rem; font-variant-numeric: tabular-nums; }
-th, td { padding: 0.3em 0.6em; text-align: right; border-bottom: 1px solid var(--line); white-space: nowrap; }
+th, td { padding: 0.3em 0.5em; text-align: right; border-bottom: 1px solid var(--line); white-space: nowrap; }
 td.text { white-space: normal; }
 th { font-weight: 600; vertical-align: bottom; }
 th:first-child { text-align: left; position: sticky; left: 0; background: var(--paper); }
 tr.marked th, tr.marked td { background: var(--mark); }
-.charts { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(100%, 460px), 1fr)); gap: 16px; }
+.charts { display: grid; grid-template-columns: repeat(auto-fill, minmax(min(100%, 460px), 1fr)); gap: 16px; }
 figure { margin: 0; break-inside: avoid; }
 figure svg { width: 100%; height: auto; }
 .triptych { display: grid; grid-template-columns: repeat(3, 1fr); gap: 8px; margin-bottom: 12px; break-inside: avoid; }

@@ -52,6 +52,7 @@ Json accuracy_of(const Row& row)
             {"false", hits.invented},
             {"moved", hits.moved},
             {"unlike", hits.unlike},
+            {"wrong_by_kind", counts_of(hits.wrong)},
             {"missed_per_million", hits.per_million(hits.missed)},
             {"false_per_million", hits.per_million(hits.invented)},
             {"t_error_p999", quantile(hits.t_errors, 0.999)},

@@ -115,6 +115,8 @@ std::string summary_table(const Json& results)
     text += "fastest: " + verdict["all"]["sentence"].get<std::string>() + "\n";
     if (!verdict["own"].is_null() && verdict["own"]["fastest"] != verdict["all"]["fastest"])
         text += "of our own: " + verdict["own"]["sentence"].get<std::string>() + "\n";
+    if (!verdict["faster_but_marked"].empty())
+        text += "faster, but marked !!: " + listed(verdict["faster_but_marked"]) + "\n";
     return text;
 }
 

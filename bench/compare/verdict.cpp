@@ -63,6 +63,18 @@ Json winner(const std::vector<const Json*>& rows)
     return json;
 }
 
+/// Rows whose answers differ, outside the noise faster than what is called fastest.
+Json faster_but_marked(const Json& results, const Json& fastest)
+{
+    Json names = Json::array();
+    for (const Json& strategy : results["strategies"]) {
+        if (strategy["status"] != "differs") continue;
+        const Json* best = fastest.is_null() ? nullptr : find_row(results, fastest["fastest"]);
+        if (!best || duel(strategy, *best).is_clear) names.push_back(strategy["name"]);
+    }
+    return names;
+}
+
 }  // namespace
 
 Duel duel(const Json& first, const Json& second)
@@ -90,7 +102,10 @@ Json verdict_of(const Json& results)
 {
     const auto all = [](const Json&) { return true; };
     const auto own = [](const Json& strategy) { return !strategy["peer"].get<bool>(); };
-    return {{"all", winner(ranked(results, all))}, {"own", winner(ranked(results, own))}};
+    const Json fastest = winner(ranked(results, all));
+    return {{"all", fastest},
+            {"own", winner(ranked(results, own))},
+            {"faster_but_marked", faster_but_marked(results, fastest)}};
 }
 
 std::string accuracy_sentence(const Json& strategy)

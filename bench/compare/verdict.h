@@ -27,7 +27,8 @@ const Json* find_row(const Json& results, const std::string& name);
 bool counts(const Json& strategy);
 
 /// Which strategy is fastest by total time, among all and among our own:
-/// {"all": {"fastest", "level": [names], "second", "ratio", "sentence"} or null, "own": likewise or null}.
+/// {"all": {"fastest", "level": [names], "second", "ratio", "sentence"} or null, "own": likewise or null,
+/// "faster_but_marked": [names of rows that are faster but whose answers differ]}.
 /// "level" are those that cannot be told from the fastest; "ratio" is how much longer the first that can be took.
 Json verdict_of(const Json& results);
 

@@ -15,7 +15,10 @@ using namespace firstray::compare;
 TEST_CASE("answers that differ are counted by how they differ")
 {
     const RayAnswer miss;
-    const std::vector<RayAnswer> expected = {{2.0, 7}, {2.0, 7}, miss, miss, {4.0, 1}, {4.0, 1}, {5.0, 2}, {0.0, 0}},
+    const std::vector<RayAnswer> expected = {{2.0, 7}, {2.0, 7, RayKind::shadow},
+                                             miss,     miss,
+                                             {4.0, 1}, {4.0, 1},
+                                             {5.0, 2}, {0.0, 0}},
                                  found = {{2.0, 7}, miss, {9.0, 3}, miss, {4.001, 1}, {4.5, 1}, {5.0, 3}, {0.0, 0}};
     HitAgreement sum = agreement(expected, found);
     CHECK(sum.rays == 8);
@@ -24,6 +27,9 @@ TEST_CASE("answers that differ are counted by how they differ")
     CHECK(sum.invented == 1);
     CHECK(sum.moved == 1);
     CHECK(sum.unlike == 5);
+    CHECK(at(sum.wrong, RayKind::primary) == 1);
+    CHECK(at(sum.wrong, RayKind::shadow) == 1);
+    CHECK(at(sum.wrong, RayKind::secondary) == 0);
     REQUIRE(sum.t_errors.size() == 5);
     CHECK(*std::max_element(sum.t_errors.begin(), sum.t_errors.end()) == doctest::Approx(0.125));
     CHECK(sum.per_million(sum.missed) == 125000.0);

@@ -55,6 +55,7 @@ TEST_CASE("the winner is named with who cannot be told from it and who is next")
     CHECK(verdict["own"]["fastest"] == "fast");
     CHECK(verdict["own"]["level"] == Json::array({"near"}));
     CHECK(verdict["own"]["second"] == "slow");
+    CHECK(verdict["faster_but_marked"] == Json::array({"wrong"}));
     const std::string sentence = verdict["own"]["sentence"];
     CHECK(sentence.find("fast takes 10.0 ms a frame; near cannot be told from it in 3 rounds; slow takes 3.00 times") ==
           0);
