@@ -17,11 +17,18 @@ struct RayAnswer {
     RayKind kind = RayKind::primary;
 };
 
-/// Which lanes of the recorded batches are looked at: every step-th ray of all.
+/// Which lanes of the recorded batches are looked at: every step-th ray of all. Rays that follow light from one
+/// transmitting surface to the next are left out: they begin exactly where the recorded strategy met the last one,
+/// which another arithmetic may meet again, a rounding later. A renderer would have gone on from its own hit.
 struct Sample {
     std::size_t step = 1;
 
-    std::size_t first_lane(const RecordedRays::Batch& batch) const { return (step - batch.first % step) % step; }
+    /// The batch's size where none is.
+    std::size_t first_lane(const RecordedRays::Batch& batch) const
+    {
+        const bool goes_on_behind_a_hit = batch.kind == RayKind::shadow && batch.query == RayQuery::closest;
+        return goes_on_behind_a_hit ? batch.count : (step - batch.first % step) % step;
+    }
 };
 
 /// The sample's answers in their order. Whole batches are searched, as when a picture is rendered.

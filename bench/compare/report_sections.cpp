@@ -44,10 +44,9 @@ void add_accuracy(const Json& strategy, std::vector<std::string>& cells)
     cells.push_back(decibels(image["psnr"]));
     cells.push_back(short_number(image["largest"]));
     cells.push_back(percent(image["differing_share"]));
-    cells.push_back(remark(strategy).empty() ? strategy["status"].get<std::string>() : remark(strategy));
 }
 
-constexpr std::size_t accuracy_columns = 8;
+constexpr std::size_t accuracy_columns = 7;
 
 /// How many rays everyone's hits were compared on.
 std::uint64_t checked_rays(const Json& results)
@@ -61,9 +60,9 @@ std::uint64_t checked_rays(const Json& results)
 std::vector<std::string> with_accuracy(const Json& results, std::vector<std::string> headings)
 {
     const std::string n = grouped(checked_rays(results));
-    for (const std::string& heading : {"missed/M|of " + n, "false/M|of " + n, std::string("error of t,|99.9th"),
-                                       std::string("RMSE"), std::string("PSNR,|dB"), std::string("largest|difference"),
-                                       std::string("pixels|differ"), std::string("agreement")})
+    for (const std::string& heading :
+         {"missed/M|of " + n, "false/M|of " + n, std::string("error of t,|99.9th"), std::string("RMSE"),
+          std::string("PSNR,|dB"), std::string("largest|difference"), std::string("pixels|differ")})
         headings.push_back(heading);
     return headings;
 }
@@ -75,7 +74,6 @@ void add_row(const Json& strategy, std::size_t speed_columns, const Speed& speed
     std::vector<std::string> cells = {strategy["name"].get<std::string>()};
     if (strategy["times"].is_null()) {
         cells.resize(speed_columns + accuracy_columns, "–");
-        cells.back() = remark(strategy);
     } else {
         speed(strategy["times"], cells);
         add_accuracy(strategy, cells);
@@ -191,21 +189,31 @@ std::string wrong_hits(const Json& results)
     return text;
 }
 
+/// What is to be said of rows that failed or disagree.
+std::string remarks(const Json& results)
+{
+    std::string text;
+    for (const Json& strategy : results["strategies"])
+        if (!remark(strategy).empty())
+            text += "<p class=\"warning\">" + escaped(strategy["name"].get<std::string>() + ": " + remark(strategy)) +
+                    "</p>\n";
+    return text;
+}
+
 std::string summary_section(const Json& results)
 {
-    return total_table(results) +
+    return total_table(results) + remarks(results) + wrong_hits(results) +
            paragraph(fmt::format(
                "Means over the frames, medians over the rounds; strategies took turns frame by frame. Trace has "
-               "shading, "
-               "textures and lazy building in it; lazy is the building alone, added up over threads. Hits are compared "
-               "with list, which tests every primitive (0 of N means less than 3/N with 95 % confidence); pictures "
-               "with "
-               "{}'s. Pixels differ when a channel does by more than half of 1/255.",
+               "shading, textures and lazy building in it; lazy is the building alone, added up over threads. Hits "
+               "are compared with list, which tests every primitive: missed and false ones per million (M) of so many "
+               "rays; 0 of N means less than 3/N with 95 % confidence. Pictures are compared with {}'s; pixels differ "
+               "when a channel does by more than half of 1/255.",
                results["settings"]["reference"].get<std::string>())) +
-           wrong_hits(results) + "<h3>The structure alone</h3>\n" + alone_table(results) +
+           "<h3>The structure alone</h3>\n" + alone_table(results) +
            paragraph(
-               "The frame's rays asked again of the structure as it then stands, and nothing else: ns are a thread's, "
-               "ms are all threads'. Other rays are reflected and transmitted ones.");
+               "The frame's rays asked again of the structure as it then stands, and nothing else: ns are a "
+               "thread's, ms are all threads'. Other rays are reflected and transmitted ones.");
 }
 
 std::string structure_section(const Json& results)

@@ -27,7 +27,7 @@ td.text { white-space: normal; }
 th { font-weight: 600; vertical-align: bottom; }
 th:first-child { text-align: left; position: sticky; left: 0; background: var(--paper); }
 tr.marked th, tr.marked td { background: var(--mark); }
-.charts { display: grid; grid-template-columns: repeat(auto-fill, minmax(min(100%, 460px), 1fr)); gap: 16px; }
+.charts { display: grid; grid-template-columns: repeat(auto-fill, minmax(min(100%, 460px), 1fr)); gap: 16px; margin-bottom: 16px; }
 figure { margin: 0; break-inside: avoid; }
 figure svg { width: 100%; height: auto; }
 .triptych { display: grid; grid-template-columns: repeat(3, 1fr); gap: 8px; margin-bottom: 12px; break-inside: avoid; }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <memory>
 
 #include "engine/render/render.h"
 #include "tests/support/reference_strategy.h"
@@ -68,4 +69,15 @@ TEST_CASE("a sample is every so manyth of all rays, searched alone or with their
     }
     CHECK(agreement(all, all).hits > 100);
     CHECK(agreement(all, all).hits < all.size());
+}
+
+TEST_CASE("rays that go on behind a hit are not in a sample")
+{
+    RecordedRays rays(100);
+    const auto tile = std::make_unique<RayTile<float>>();
+    tile->count = 3;
+    for (const RayQuery query : {RayQuery::occluded, RayQuery::closest}) rays.add(RayKind::shadow, query, *tile);
+    CHECK(Sample{1}.first_lane(rays.batches()[0]) == 0);
+    CHECK(Sample{2}.first_lane(rays.batches()[0]) == 0);
+    CHECK(Sample{1}.first_lane(rays.batches()[1]) == 3);
 }
