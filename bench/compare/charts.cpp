@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace firstray::compare {
 namespace {
@@ -39,6 +40,28 @@ void set_apart(Chart& chart)
     const double middle = 0.5 * static_cast<double>(chart.series.size() - 1);
     for (std::size_t i = 0; i < chart.series.size(); ++i)
         for (double& x : chart.series[i].x) x += 0.008 * range * (static_cast<double>(i) - middle);
+}
+
+/// Leaves out labels that would be printed over others: the table has all names.
+void thin_labels(const Series& series, std::vector<std::string>& labels)
+{
+    constexpr double label_width = 0.4, label_height = 0.06;  // of the chart
+    if (series.x.empty()) return;
+    const auto [left, right] = std::minmax_element(series.x.begin(), series.x.end());
+    const double log_range = std::log(std::max(*right / *left, 1.01));
+    const double y_range = std::max(*std::max_element(series.y.begin(), series.y.end()), 1e-12);
+    std::vector<std::size_t> kept;
+    for (std::size_t i = 0; i < labels.size(); ++i) {
+        if (labels[i].empty()) continue;
+        const bool is_free = std::none_of(kept.begin(), kept.end(), [&](std::size_t k) {
+            return std::abs(std::log(series.x[i] / series.x[k])) < label_width * log_range &&
+                   std::abs(series.y[i] - series.y[k]) < label_height * y_range;
+        });
+        if (is_free)
+            kept.push_back(i);
+        else
+            labels[i].clear();
+    }
 }
 
 std::vector<double> values_of(const Json& rounds)
@@ -184,6 +207,7 @@ Chart trade_chart(const Json& results)
         frontier.x.push_back(x);
         frontier.y.push_back(y);
     }
+    thin_labels(all, chart.labels);
     if (!all.x.empty()) chart.series = {std::move(all), std::move(frontier)};
     return chart;
 }

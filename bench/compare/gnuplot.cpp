@@ -83,7 +83,8 @@ std::string x_axis(const Chart& chart)
     if (!(low < high)) return "";  // gnuplot's own, around a single point
     const double margin = 0.04 * (high - low);
     if (!chart.x_log) return fmt::format("set xrange [{}:{}]\n", number(low - margin), number(high + margin));
-    std::string text = fmt::format("set logscale x\nset xrange [{}:{}]\n", number(0.9 * low), number(1.1 * high));
+    const double room = chart.labels.empty() ? 1.1 : std::pow(high / low, 0.4);  // labels stand right of their points
+    std::string text = fmt::format("set logscale x\nset xrange [{}:{}]\n", number(0.9 * low), number(room * high));
     if (!chart.x_marks) return text + "set format x \"%g\"\n";
     std::string marks;
     for (const double x : chart.series.front().x) marks += (marks.empty() ? "" : ", ") + number(x);
@@ -146,7 +147,8 @@ std::string gnuplot_script(const Chart& chart, const std::string& file)
     text += x_axis(chart);
     text += chart.y_log ? "set logscale y\nset format y \"%g\"\n" : "set yrange [0:*]\n";
     for (std::size_t i = 0; i < chart.series.size(); ++i) text += data_block(chart.series[i], i);
-    for (std::size_t i = 0; i < chart.labels.size(); ++i) text += label_of(chart, i);
+    for (std::size_t i = 0; i < chart.labels.size(); ++i)
+        if (!chart.labels[i].empty()) text += label_of(chart, i);
     text += "plot ";
     for (std::size_t i = 0; i < chart.series.size(); ++i) text += (i ? ", \\\n  " : "") + plot_of(chart.series[i], i);
     return text + "\n";

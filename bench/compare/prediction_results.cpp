@@ -48,18 +48,21 @@ Json checked_points(const Json& points, const Cost& cost)
     return checked;
 }
 
-/// Rays of each kind that spring from a primary ray, and what searching for one takes at least.
-Json kinds_of(const Json& results, const Json& strategy)
+/// Rays of each kind that spring from a primary ray in the frames that were swept, and what searching for one takes on
+/// one thread.
+Json kinds_of(const Json& results, const Json& measured)
 {
-    Json kinds = Json::object();
     const auto rays = [&](const char* kind) {
         double sum = 0.0;
-        for (const Json& frame : results["frames"]) sum += frame["asked"][kind].get<double>();
+        for (const Json& frame : results["frames"])
+            for (const Json& swept : results["sweep"]["frames"])
+                if (frame["frame"] == swept) sum += frame["asked"][kind].get<double>();
         return sum;
     };
+    Json kinds = Json::object();
     for (const char* kind : {"primary", "shadow", "secondary"})
         kinds[kind] = {{"per_primary", rays(kind) / std::max(1.0, rays("primary"))},
-                       {"ns", strategy["times"]["ns_per_ray"][kind]["least"]}};
+                       {"ns", measured["ns_per_ray"][kind]}};
     return kinds;
 }
 
@@ -71,13 +74,13 @@ Json totals_of(const Cost& cost, double rays)
     return totals;
 }
 
-Json law_of(const Json& results, const Json& strategy, const Json& points, const Cost& cost, double rays)
+Json law_of(const Json& results, const Json& measured, const Cost& cost, double rays)
 {
-    const Json kinds = kinds_of(results, strategy);
+    const Json kinds = kinds_of(results, measured);
     double searching = 0.0;
     for (const Json& kind : kinds) searching += kind["per_primary"].get<double>() * kind["ns"].get<double>();
     const double balance = balanced_processors(cost, rays);
-    return {{"name", strategy["name"]},
+    return {{"name", measured["name"]},
             {"update_serial_ms", cost.update_serial_ms},
             {"update_shared_ms", cost.update_shared_ms},
             {"build_ms", cost.build_ms},
@@ -86,7 +89,7 @@ Json law_of(const Json& results, const Json& strategy, const Json& points, const
             {"other_ns_per_primary_ray", cost.ns_per_ray - searching},
             {"balanced_processors", std::isfinite(balance) ? Json(balance) : Json(nullptr)},
             {"totals", totals_of(cost, rays)},
-            {"checked", checked_points(points, cost)}};
+            {"checked", checked_points(measured["points"], cost)}};
 }
 
 Json reigns_of(const std::vector<Reign>& reigns, const std::vector<std::string>& names)
@@ -139,7 +142,7 @@ Json prediction_of(const Json& results)
             rays = alone->rays;
             costs.push_back(fit_cost(*alone, whole_frame(measured["points"], false)));
             names.push_back(strategy["name"]);
-            prediction["strategies"].push_back(law_of(results, strategy, measured["points"], costs.back(), rays));
+            prediction["strategies"].push_back(law_of(results, measured, costs.back(), rays));
         }
     prediction["rays"] = rays;
     prediction["fastest_by_processors"] = reigns_of(fastest_by_processors(costs, rays, most_processors), names);

@@ -7,12 +7,20 @@
 namespace firstray::compare {
 namespace {
 
+std::string note_of(const Json& setting)
+{
+    if (const std::string fault = setting["fault"]; !fault.empty()) return "failed: " + fault;
+    if (setting["on_frontier"].get<bool>()) return "frontier";
+    const std::string better = setting["worse_than"];
+    if (!better.empty()) return "worse than " + better;
+    return setting["is_orientation"].get<bool>() ? "memory" : "";
+}
+
 std::vector<std::string> cells_of(const Json& setting)
 {
-    std::vector<std::string> cells = {setting["name"].get<std::string>()};
-    if (const std::string fault = setting["fault"]; !fault.empty()) {
-        cells.resize(12, "–");
-        cells.push_back("failed: " + fault);
+    std::vector<std::string> cells = {setting["name"].get<std::string>(), note_of(setting)};
+    if (!setting["fault"].get<std::string>().empty()) {
+        cells.resize(13, "–");
         return cells;
     }
     const Json &image = setting["image"], &hits = setting["hits"];
@@ -26,10 +34,6 @@ std::vector<std::string> cells_of(const Json& setting)
     cells.push_back(short_number(hits["missed_per_million"]));
     cells.push_back(short_number(hits["false_per_million"]));
     cells.push_back(megabytes(setting["bytes"]));
-    cells.push_back(setting["on_frontier"].get<bool>() ? "on the frontier"
-                    : setting["worse_than"].get<std::string>().empty()
-                        ? ""
-                        : "worse than " + setting["worse_than"].get<std::string>());
     return cells;
 }
 
@@ -38,9 +42,8 @@ std::vector<std::string> cells_of(const Json& setting)
 std::string trade_section(const Json& results)
 {
     const Json& trade = results["trade"];
-    HtmlTable table({"setting", "update,|ms", "trace,|ms", "total,|ms", "RMSE", "PSNR,|dB", "largest|difference",
-                     "pixels that|differ", "another hue|(Yee)", "missed hits|per million", "false hits|per million",
-                     "memory", ""});
+    HtmlTable table({"setting", "", "update,|ms", "trace,|ms", "total,|ms", "RMSE", "PSNR,|dB", "largest|diff.",
+                     "pixels|differ", "hue|(Yee)", "missed|per M", "false|per M", "memory"});
     for (const Json& setting : trade["settings"])
         table.add(cells_of(setting), !setting["worse_than"].get<std::string>().empty());
     return table.html() +
@@ -48,7 +51,8 @@ std::string trade_section(const Json& results)
                "<p class=\"note\">{}</p>\n",
                escaped(fmt::format(
                    "Strategy {}; the reference is {}. Missed and false hits against list in double, of {} rays each. "
-                   "A setting is worse than another when it is slower in every round and not more accurate; such "
+                   "A setting is worse than another when it is slower in every round, by 5 % in the median, and not "
+                   "more accurate; such "
                    "settings nobody should use. Settings that only cost memory are there for orientation.",
                    trade["strategy"].get<std::string>(), trade["reference"].get<std::string>(),
                    grouped(trade["rays"]))));

@@ -16,11 +16,12 @@ constexpr std::size_t most_frames = 2;
 constexpr int rounds = 3;
 constexpr int compared_frames = 4;  // at the end of a frameless run
 
-std::vector<int> some_frames(const std::vector<int>& frames)
+/// Positions among the plan's frames.
+std::vector<std::size_t> some_frames(std::size_t all)
 {
-    std::vector<int> some;
-    const std::size_t count = std::min(frames.size(), most_frames);
-    for (std::size_t i = 0; i < count; ++i) some.push_back(frames[(2 * i + 1) * frames.size() / (2 * count)]);
+    std::vector<std::size_t> some;
+    const std::size_t count = std::min(all, most_frames);
+    for (std::size_t i = 0; i < count; ++i) some.push_back((2 * i + 1) * all / (2 * count));
     return some;
 }
 
@@ -48,11 +49,12 @@ struct Pair {
     std::unique_ptr<Contender> alone;
     Contender* shared = nullptr;
     std::map<Setting, std::vector<Sum>> rounds{};
+    ByKind<std::vector<double>> ns_per_ray{};  // by round: searching alone, on one thread
 };
 
 class Sweep {
 public:
-    explicit Sweep(Contest& contest) : contest_(contest), frames_(some_frames(contest.plan().frames)), alone_(1)
+    explicit Sweep(Contest& contest) : contest_(contest), frames_(some_frames(contest.frames().size())), alone_(1)
     {
         const RenderOptions& options = contest.plan().render;
         for (const int turns : shares_of(contest.plan()))
@@ -77,11 +79,15 @@ public:
 
     Json to_json() const
     {
-        Json json = {{"frames", frames_}, {"strategies", Json::array()}};
+        Json frames = Json::array();
+        for (const std::size_t f : frames_) frames.push_back(contest_.frames()[f].frame);
+        Json json = {{"frames", frames}, {"strategies", Json::array()}};
         for (const Pair& pair : pairs_) {
-            Json points = Json::array();
+            Json points = Json::array(), ns = Json::object();
             for (const auto& [setting, sums] : pair.rounds) points.push_back(point(setting, sums));
-            json["strategies"].push_back({{"name", pair.name}, {"points", points}});
+            for (std::size_t kind = 0; kind < ray_kinds; ++kind)
+                ns[name_of(static_cast<RayKind>(kind))] = quantile(pair.ns_per_ray[kind], 0.0);
+            json["strategies"].push_back({{"name", pair.name}, {"points", points}, {"ns_per_ray", ns}});
         }
         return json;
     }
@@ -97,14 +103,29 @@ private:
             prepare(options);
             std::vector<Sum>& sums = pair.rounds[{threads, static_cast<int>(turns.count())}];
             sums.resize(static_cast<std::size_t>(round) + 1);
-            for (const int frame : frames_) {
+            ByKind<double> seconds{}, rays{};
+            for (const std::size_t f : frames_) {
+                const int frame = contest_.frames()[f].frame;
                 const auto pixels = turns.pixels(static_cast<std::size_t>(round));
                 const FrameStats stats = contender.render_part(frame, options, pixels, picture_);
+                if (threads == 1 && turns.count() == 1) add_search(contender, f, seconds, rays);
                 sums.back().update_ms += stats.update_ms;
                 sums.back().trace_ms += stats.trace_ms;
                 sums.back().build_ms += stats.structure.lazy_build_ms;
                 sums.back().rays += static_cast<double>(stats.rays.primary);
             }
+            for (std::size_t kind = 0; kind < ray_kinds; ++kind)
+                if (rays[kind] > 0.0) pair.ns_per_ray[kind].push_back(1e9 * seconds[kind] / rays[kind]);
+        }
+    }
+
+    /// The frame's rays asked again of the structure alone.
+    void add_search(const Contender& contender, std::size_t f, ByKind<double>& seconds, ByKind<double>& rays) const
+    {
+        const ByKind<double> spent = contender.replay(contest_.recorded(f));
+        for (std::size_t kind = 0; kind < ray_kinds; ++kind) {
+            seconds[kind] += spent[kind];
+            rays[kind] += static_cast<double>(contest_.frames()[f].kept[kind]);
         }
     }
 
@@ -134,7 +155,7 @@ private:
     }
 
     Contest& contest_;
-    std::vector<int> frames_;
+    std::vector<std::size_t> frames_;
     Executor alone_;
     std::vector<FramelessTurns> turns_;
     std::vector<Pair> pairs_;

@@ -11,7 +11,8 @@ namespace firstray::compare {
 /// Times everyone who is in on one thread and on all, tracing 1, 1/4, 1/16 and 1/64 of the pixels, and the shares that
 /// the plan asks for, in up to two of the plan's frames.
 /// returns  {"frames", "strategies": [{"name", "points": [{"threads", "turns", "rays", "update_ms", "trace_ms",
-///          "build_ms"}]}]}: the least over rounds, which noise touches least, of means over frames
+///          "build_ms"}], "ns_per_ray": {kind}}]}: the least over rounds, which noise touches least, of means over
+///          frames
 Json measure_sweep(Contest& contest);
 
 /// Fits the law of prediction.h to each strategy's points and holds it against the others.

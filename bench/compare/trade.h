@@ -26,9 +26,9 @@ std::vector<TradeSetting> trade_settings(const Plan& plan, const Contestant& con
 ///          "total_ms", "totals", "image", "hits", "bytes", "is_orientation", "on_frontier", "worse_than"}]}
 Json measure_trade(Contest& contest, const Contestant& contestant);
 
-/// Fills in "on_frontier" and "worse_than". A setting is worse than another that was faster in every round and is not
-/// less accurate (RMSE); on the frontier are those that no other beats in both. Orientation neither beats nor is
-/// beaten.
+/// Fills in "on_frontier" and "worse_than". A setting is worse than another that was faster in every round, by 5 % in
+/// the median, and is not less accurate (RMSE); on the frontier are those that no other beats in both. Orientation
+/// neither beats nor is beaten.
 void judge(Json& settings);
 
 /// Frontier and settings nobody should use, as lines for a terminal.

@@ -30,8 +30,8 @@ std::string sentence_of(const Json& fastest, const std::vector<std::string>& lev
     if (level.empty())
         text = fmt::format("{} takes {} a frame", name, time);
     else
-        text = fmt::format("{} takes {} a frame; {} cannot be told from it in {} rounds", name, time, listed(level),
-                           rounds);
+        text = fmt::format("{} takes {} a frame; {} cannot be told from it in {} round{}", name, time, listed(level),
+                           rounds, rounds == 1 ? "" : "s");
     if (second)
         text += fmt::format("; {} takes {:.2f} times as long [{:.2f} to {:.2f}]", (*second)["name"].get<std::string>(),
                             ratio.median, ratio.least, ratio.most);
