@@ -15,7 +15,7 @@ namespace {
 
 /// Pixels that a task of render_pixels takes: enough for beams, few enough that a 64th of a picture still makes tasks
 /// for several threads.
-constexpr std::size_t lot_size = 256;
+constexpr std::size_t lot_size = 64;
 
 void check(const Pose& pose, std::span<const Texture> textures, const RenderOptions& options)
 {
