@@ -141,7 +141,7 @@ std::string gnuplot_script(const Chart& chart, const std::string& file)
 {
     std::string text = fmt::format(
         "set terminal svg size 520,400 dynamic font \"sans-serif,14\" name {}\nset output {}\n"
-        "set xlabel {} noenhanced\nset ylabel {} noenhanced\nset grid lc rgb \"#999999\" lw 0.5 dt 3\n"
+        "set xlabel {} offset 0,0.5 noenhanced\nset ylabel {} noenhanced\nset grid lc rgb \"#999999\" lw 0.5 dt 3\n"
         "set key below horizontal maxrows 3 samplen 2\nset border 3\nset tics nomirror\n",
         quoted(chart.id), quoted(file), quoted(chart.x_label), quoted(chart.y_label));
     text += x_axis(chart);

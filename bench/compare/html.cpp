@@ -46,6 +46,11 @@ std::string base64(std::string_view bytes)
     return text;
 }
 
+std::string paragraph(std::string_view text, std::string_view type)
+{
+    return "<p class=\"" + escaped(type) + "\">" + escaped(text) + "</p>\n";
+}
+
 std::string inline_png(std::string_view png, std::string_view alternative)
 {
     return "<img alt=\"" + escaped(alternative) + "\" src=\"data:image/png;base64," + base64(png) + "\">";

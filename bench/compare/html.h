@@ -11,6 +11,9 @@ std::string escaped(std::string_view text);
 /// RFC 4648, with padding.
 std::string base64(std::string_view bytes);
 
+/// A paragraph of text, escaped.
+std::string paragraph(std::string_view text, std::string_view type = "note");
+
 /// A picture inside the page.
 /// png  the file's bytes
 std::string inline_png(std::string_view png, std::string_view alternative);

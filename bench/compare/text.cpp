@@ -31,6 +31,11 @@ std::string grouped(std::uint64_t value)
     return digits;
 }
 
+std::string percent(double share)
+{
+    return short_number(100.0 * share) + " %";
+}
+
 std::string megabytes(double bytes)
 {
     return short_number(1e-6 * bytes) + " MB";

@@ -13,6 +13,8 @@ std::string short_number(double value);
 std::string milliseconds(double value);
 /// "1,234,567".
 std::string grouped(std::uint64_t value);
+/// A share as "12.3 %".
+std::string percent(double share);
 /// Bytes as "12.3 MB".
 std::string megabytes(double bytes);
 /// "a, b and c".

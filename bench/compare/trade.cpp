@@ -11,7 +11,7 @@
 namespace firstray::compare {
 namespace {
 
-constexpr int full_depth = 4, full_samples = 16;
+constexpr int full_samples = 16;
 constexpr int most_rounds = 3;
 constexpr std::size_t most_frames = 2;
 
@@ -88,7 +88,7 @@ private:
         const Plan& plan = contest_.plan();
         TradeSetting setting{"reference", contestant, plan.options, plan.render};
         setting.options.precision = Precision::double_;
-        setting.render.depth = std::max(full_depth, plan.render.depth);
+        setting.render.depth = std::max(trade_depth, plan.render.depth);
         setting.render.samples = std::max(full_samples, plan.render.samples);
         return setting;
     }
@@ -222,45 +222,6 @@ bool beats(const Json& a, const Json& b)
 }
 
 }  // namespace
-
-std::vector<TradeSetting> trade_settings(const Plan& plan, const Contestant& contestant)
-{
-    TradeSetting base{"base", contestant, plan.options, plan.render};
-    base.options.precision = Precision::robust;
-    base.render.depth = full_depth;
-    base.render.samples = 1;
-    std::vector<TradeSetting> settings;
-    const auto add = [&](const std::string& name, const auto& change) {
-        settings.push_back(base);
-        settings.back().name = name;
-        change(settings.back());
-    };
-    add("robust, depth 4, spp 1", [](TradeSetting&) {});
-    add("fast", [](TradeSetting& s) { s.options.precision = Precision::fast; });
-    add("double", [](TradeSetting& s) { s.options.precision = Precision::double_; });
-    for (const int depth : {0, 1, 2, 3})
-        add(fmt::format("depth {}", depth), [&](TradeSetting& s) { s.render.depth = depth; });
-    for (const int samples : {4, 16})
-        add(fmt::format("spp {}", samples), [&](TradeSetting& s) { s.render.samples = samples; });
-    for (const int turns : {2, 4, 16})
-        add(fmt::format("frameless 1/{}", turns), [&](TradeSetting& s) { s.turns = turns; });
-    add("spp 4, depth 2", [](TradeSetting& s) { s.render.samples = 4, s.render.depth = 2; });
-    add("spp 4, frameless 1/4", [](TradeSetting& s) { s.render.samples = 4, s.turns = 4; });
-    add("depth 2, frameless 1/4", [](TradeSetting& s) { s.render.depth = 2, s.turns = 4; });
-    add("fast, depth 2", [](TradeSetting& s) { s.options.precision = Precision::fast, s.render.depth = 2; });
-
-    base.is_orientation = true;
-    for (const float density : {1.0f, 8.0f})
-        add(fmt::format("grid density {}", density), [&](TradeSetting& s) { s.options.grid_density = density; });
-    for (const int list : {4, 64})
-        add(fmt::format("max list {}", list), [&](TradeSetting& s) { s.options.max_list = list; });
-    add("obb, obb-groups all", [](TradeSetting& s) { s.contestant = parse_contestant("obb+obb-groups=all"); });
-    add("lazy, structure budget 1 MB", [](TradeSetting& s) {
-        s.contestant = parse_contestant("lazy");
-        s.options.structure_budget = 1000000;
-    });
-    return settings;
-}
 
 Json measure_trade(Contest& contest, const Contestant& contestant)
 {

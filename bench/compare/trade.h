@@ -7,6 +7,9 @@
 
 namespace firstray::compare {
 
+/// Reflections in a row of the settings that do not say otherwise, and at least of the reference.
+inline constexpr int trade_depth = 4;
+
 /// One way to render: a name, and what differs from the others.
 struct TradeSetting {
     std::string name;  ///< e.g. "spp 4, depth 2"

@@ -102,8 +102,7 @@ void add_compare(CLI::App& app, CompareJob& job)
     add_scene(app, job.scene);
     add(app, "RESULTS", job.other, " ", "with results.json for SCENE: tell what changed, exit 1 where it is worse");
     add(app, "--strategies", job.strategies, "LIST",
-        "of " + strategy_names() +
-            "; each perhaps with +FLAG=WORD of its own; default all, list only where it is quick");
+        "e.g. grid,obb,obb+obb-top=list,embree; default all, list only where it is quick");
     add(app, "--frames", job.frames, "LIST", "as for render; default 8, spread over the animation");
     add(app, "--size", job.size, "WxH", "pictures' size; default: the scene's");
     add_int(app, "--depth", job.depth, 0, 64, "reflections and refractions in a row; default 4");

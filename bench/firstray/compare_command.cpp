@@ -11,6 +11,7 @@
 #include "bench/firstray/progress.h"
 #include "bench/firstray/search.h"
 #include "bench/firstray/words.h"
+#include "engine/core/pending_file.h"
 #include "engine/image/image.h"
 
 namespace firstray::command {
@@ -102,6 +103,14 @@ void check_words(const CompareJob& job, bool terminal)
     progress_style(job.progress, terminal);
 }
 
+/// Refuses a folder that cannot be written before minutes are spent on what belongs there.
+void check_writable(const std::filesystem::path& folder)
+{
+    const std::filesystem::path probe = folder / ".firstray";
+    write_whole_file(probe, "");
+    std::filesystem::remove(probe);
+}
+
 /// Tells what changed from one run to another, and ends in failure where something is worse.
 void compare_results(const CompareJob& job, Streams streams)
 {
@@ -120,6 +129,8 @@ void compare_strategies(const CompareJob& job, Streams streams)
     const Scene scene = read_scene(job.scene);
     const compare::Plan plan = plan_of(job, scene);
     const std::vector<Texture> textures = image::read_textures(scene, {.allow_outside = job.scene.allow_outside});
+    const std::filesystem::path folder = job.report.empty() ? "out/" + scene.name + "-report" : job.report;
+    check_writable(folder);
     const InterruptGuard guard;
     compare::Report report;
     {
@@ -129,7 +140,6 @@ void compare_strategies(const CompareJob& job, Streams streams)
                                    [] { return interrupted != 0; }};
         report = compare::compare(scene, textures, plan, {job.command_line, job.scene.file}, watch);
     }
-    const std::filesystem::path folder = job.report.empty() ? "out/" + scene.name + "-report" : job.report;
     compare::write_report(folder, report);
     const Json& results = report.results;
     streams.out << (job.json ? results.dump(2) + "\n" : compare::summary_table(results));

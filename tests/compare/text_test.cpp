@@ -22,6 +22,7 @@ TEST_CASE("numbers have three digits")
     for (const auto& [value, text] : cases) CHECK(short_number(value) == text);
     CHECK(milliseconds(12.34) == "12.3 ms");
     CHECK(megabytes(1.5e6) == "1.50 MB");
+    CHECK(percent(0.125) == "12.5 %");
 }
 
 TEST_CASE("long counts are grouped by thousands")
