@@ -35,13 +35,21 @@ void extend(std::vector<Reign>& reigns, std::size_t fastest, double from, double
         reigns.push_back({fastest, from, to});
 }
 
+/// Where the line through what both points built meets no rays at all.
+double built_without_rays(const Point& many, const Point& few)
+{
+    if (few.rays >= many.rays) return many.build_ms;
+    const double per_ray = (many.build_ms - few.build_ms) / (many.rays - few.rays);
+    return std::clamp(few.build_ms - per_ray * few.rays, 0.0, many.build_ms);
+}
+
 }  // namespace
 
-Cost fit_cost(const Point& alone, const std::optional<Point>& shared)
+Cost fit_cost(const Point& alone, const std::optional<Point>& shared, const std::optional<Point>& few)
 {
     Cost cost;
-    cost.build_ms = alone.build_ms;
-    cost.ns_per_ray = 1e6 * std::max(0.0, alone.trace_ms - alone.build_ms) / alone.rays;
+    cost.build_ms = few ? built_without_rays(alone, *few) : alone.build_ms;
+    cost.ns_per_ray = 1e6 * std::max(0.0, alone.trace_ms - cost.build_ms) / alone.rays;
     cost.update_serial_ms = alone.update_ms;
     if (shared && shared->threads > 1) {
         const double n = shared->threads;

@@ -30,13 +30,24 @@ std::optional<Point> whole_frame(const Json& points, bool alone)
     return std::nullopt;
 }
 
+/// The point on one thread that traces the fewest pixels.
+Json fewest_rays(const Json& points)
+{
+    Json fewest;
+    for (const Json& point : points)
+        if (point["threads"] == 1 && (fewest.is_null() || point["turns"] > fewest["turns"])) fewest = point;
+    return fewest;
+}
+
 /// Points that the law was not fitted to, and how far it is off there.
 Json checked_points(const Json& points, const Cost& cost)
 {
+    const Json fewest = fewest_rays(points);
     Json checked = Json::array();
     for (const Json& json : points) {
         const Point point = point_of(json);
-        if (json["turns"] == 1 && point.threads == 1) continue;
+        const bool is_fitted_to = point.threads == 1 && (json["turns"] == 1 || json["turns"] == fewest["turns"]);
+        if (is_fitted_to) continue;
         const double predicted = predicted_total_ms(cost, point.threads, point.rays);
         checked.push_back({{"threads", point.threads},
                            {"turns", json["turns"]},
@@ -140,7 +151,8 @@ Json prediction_of(const Json& results)
             const std::optional<Point> alone = whole_frame(measured["points"], true);
             if (!alone || alone->rays <= 0.0) continue;
             rays = alone->rays;
-            costs.push_back(fit_cost(*alone, whole_frame(measured["points"], false)));
+            costs.push_back(
+                fit_cost(*alone, whole_frame(measured["points"], false), point_of(fewest_rays(measured["points"]))));
             names.push_back(strategy["name"]);
             prediction["strategies"].push_back(law_of(results, measured, costs.back(), rays));
         }

@@ -77,13 +77,12 @@ std::string prediction_section(const Json& results)
         reign_list(prediction["fastest_by_rays"], 1e-3, "thousands of primary rays a frame, on this machine's threads");
     text += break_even_list(prediction) + law_table(prediction);
     text += paragraph(fmt::format(
-        "Balance is the number of processors at which tracing takes no longer than an update that is not shared: more "
-        "hardly "
-        "help. The law: total = update (not shared) + (update (shared) + lazy building + ns per ray x "
-        "rays) / processors, fitted "
-        "to whole frames of {} primary rays on one thread, and the update's on all threads too. "
-        "Held against {} threads and "
-        "a quarter to a 64th of the rays (the least of three rounds each) it is off by {} in the median, {} at most.",
+        "Balance is the number of processors at which tracing takes no longer than an update that is not shared: "
+        "more hardly help. The law: total = update (not shared) + (update (shared) + lazy building + ns per ray x "
+        "rays) "
+        "/ processors, fitted to whole frames of {} primary rays on one thread, to the update on all threads, and to "
+        "what the fewest rays have built; building that grows with the rays is in their ns. Held against {} threads "
+        "and fewer rays (the least of three rounds each) it is off by {} in the median, {} at most.",
         grouped(static_cast<std::uint64_t>(rays)), prediction["threads"].dump(), percent(prediction["median_error"]),
         percent(prediction["largest_error"])));
     return text + check_table(prediction);

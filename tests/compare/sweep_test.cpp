@@ -45,7 +45,7 @@ TEST_CASE("rays and threads are swept, and shares that are asked for beside the 
             }
         }
         for (const Json& law : results["prediction"]["strategies"])
-            CHECK(law["checked"].size() == static_cast<std::size_t>(5 * threads - 1));
+            CHECK(law["checked"].size() == static_cast<std::size_t>(5 * threads - 2));
     }
 }
 
