@@ -1,5 +1,6 @@
 #include "bench/compare/compare.h"
 
+#include <cstdlib>
 #include <utility>
 
 #include "bench/compare/report.h"
@@ -25,6 +26,7 @@ Contestant contestant_to_trade(const Json& results, const Plan& plan)
 Report compare(const Scene& scene, std::span<const Texture> textures, const Plan& plan, RunFacts facts,
                const Watch& watch)
 {
+    if (getloadavg(&facts.load_before, 1) != 1) facts.load_before = 0.0;
     Contest contest(scene, textures, plan, watch);
     Json sweep, frameless, trade;
     std::vector<FramePictures> pictures;

@@ -49,6 +49,7 @@ std::string head(const Json& results)
         text +=
             "<p class=\"warning\">This run was interrupted. The report has what was finished: whole rounds "
             "alone.</p>\n";
+    if (const std::string load = load_warning(results); !load.empty()) text += paragraph("Note: " + load + ".");
     return text;
 }
 

@@ -216,6 +216,17 @@ Json to_json(const ImageError& error)
             {"largest", error.largest}};
 }
 
+std::string load_warning(const Json& results)
+{
+    constexpr double quiet = 0.25;
+    const double load = results["load_before"];
+    if (load <= quiet) return "";
+    return fmt::format(
+        "other programs were at work before this began (load average {:.1f}): times are noisy, and threads "
+        "may not have had a processor each",
+        load);
+}
+
 std::vector<double> by_round(const Json& strategy, const std::string& key)
 {
     const Json& frames = strategy["frames"];
@@ -237,6 +248,7 @@ Json results_of(const Contest& contest, const RunFacts& facts)
     Json results = {{"format", results_format},
                     {"version", results_version},
                     {"interrupted", facts.interrupted},
+                    {"load_before", facts.load_before},
                     {"command", facts.command},
                     {"created", fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(now))},
                     {"machine", describe_machine()},

@@ -11,7 +11,7 @@ namespace firstray::compare {
 // Everything that is told about a comparison is told from one JSON document, results.json, so that tables, charts and
 // sentences cannot disagree with it:
 //   format "firstray.compare", version 1
-//   interrupted, command, created, machine, scene, settings
+//   interrupted, load_before, command, created, machine, scene, settings
 //   frames       by frame: rays by kind, and how many of them are replayed
 //   strategies   by row: name, status ("exact", "close", "differs", "failed", "unmeasured"), reason, accuracy, times,
 //                structure, and by frame every round's numbers
@@ -25,7 +25,11 @@ struct RunFacts {
     std::string command;  ///< as typed
     std::string scene_file;
     bool interrupted = false;
+    double load_before = 0.0;  ///< programs that ran in the minute before, on average; set by compare()
 };
+
+/// "other programs were at work ..." where the load before was more than a quarter of a processor; else nothing.
+std::string load_warning(const Json& results);
 
 Json results_of(const Contest& contest, const RunFacts& facts);
 

@@ -110,6 +110,7 @@ std::string summary_table(const Json& results)
         "means over the frames, medians of the rounds; building: part of trace, summed over threads; hits are checked "
         "against list on {} rays, pictures against {}\n",
         grouped(checked_rays(results)), results["settings"]["reference"].get<std::string>());
+    if (const std::string load = load_warning(results); !load.empty()) text += load + "\n";
     const Json verdict = verdict_of(results);
     if (verdict["all"].is_null()) return text;
     text += "fastest: " + verdict["all"]["sentence"].get<std::string>() + "\n";

@@ -67,6 +67,12 @@ TEST_CASE("a report of a scene named <script> holds no script, nothing from else
     CHECK(page.find("src=\"data:image/png;base64,iVBORw0KGgo") != std::string::npos);
 }
 
+TEST_CASE("a machine that was busy before is told of")
+{
+    CHECK(load_warning({{"load_before", 0.2}}).empty());
+    CHECK(load_warning({{"load_before", 3.84}}).find("load average 3.8") != std::string::npos);
+}
+
 TEST_CASE("the page's numbers are those of the results document")
 {
     const Report report = run(test::scene_of(test::moving_square));
