@@ -7,7 +7,7 @@ build=$root/build
 
 required_packages=(g++ cmake ninja-build pkg-config libtbb-dev libglm-dev libhwy-dev libopenimageio-dev libcli11-dev
     libfmt-dev nlohmann-json3-dev doctest-dev libbenchmark-dev)
-optional_packages=(libembree-dev)  # a peer to measure against
+optional_packages=(libembree-dev gnuplot-nox)  # a peer to measure against; charts in reports
 
 # Prints which of the given Debian packages are not installed.
 missing_packages() {

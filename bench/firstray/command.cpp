@@ -1,5 +1,8 @@
 #include "bench/firstray/command.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
@@ -19,6 +22,9 @@ constexpr const char* render_examples = R"(Examples:
 constexpr const char* info_examples = R"(Examples:
   firstray info Robot.aff --structure --frame 456
   firstray info museum5.aff --json | jq .triangles)";
+constexpr const char* compare_examples = R"(Examples:
+  firstray compare kitchen.aff --strategies grid,obb,obb+obb-top=list,lazy --report out/kitchen
+  firstray compare before/results.json after/results.json)";
 constexpr const char* trace_examples =
     R"(A ray is a line ox,oy,oz,dx,dy,dz,tmin,tmax in world coordinates; tmax may be inf. Line k of the
 answer is t,group,primitive,u,v of ray k, or inf,-1,-1,0,0 where it meets nothing.
@@ -47,9 +53,9 @@ CLI::Option* add_scene(CLI::App& app, SceneChoice& scene)
     return add(app, "SCENE", scene.file, " ", "scene file (.aff)")->required();
 }
 
-void add_search(CLI::App& app, SearchChoice& search)
+/// What all strategies understand.
+void add_structure(CLI::App& app, SearchChoice& search)
 {
-    add(app, "--strategy", search.strategy, "NAME", "structure: " + strategy_names() + "; default grid");
     add(app, "--precision", search.precision, "NAME", "fast, robust or double; default robust");
     add_int(app, "--threads", search.threads, 0, 1024, "threads that work at once; default 0, all there are");
     add(app, "--grid-density", search.grid_density, "X", "cells per primitive; default 0, the strategy's own")
@@ -60,6 +66,12 @@ void add_search(CLI::App& app, SearchChoice& search)
             "levels of grids; default " + std::to_string(search.grid_depth));
     add(app, "--structure-budget", search.structure_budget, "BYTES",
         "most that lazy or adaptive may build while rays fly; default 0, no limit");
+}
+
+void add_search(CLI::App& app, SearchChoice& search)
+{
+    add(app, "--strategy", search.strategy, "NAME", "structure: " + strategy_names() + "; default grid");
+    add_structure(app, search);
     for (const OwnChoice& own : own_choices()) {
         const std::string flag = "--" + std::string(own.flag);
         if (app.get_option_no_throw(flag)) continue;  // info has it already, and asks with it too
@@ -77,8 +89,10 @@ void add_render(CLI::App& app, RenderJob& job)
     add(app, "--size", job.size, "WxH", "picture's size; default: the scene's");
     add_int(app, "--depth", job.depth, 0, 64, "reflections and refractions in a row; default 4");
     add_int(app, "--spp", job.samples, 1, 4096, "samples per pixel; default 1");
+    add(app, "--frameless", job.frameless, "1/X", "share of the pixels that a frame traces; default 1, all");
+    add(app, "--seed", job.seed, "N", "which pixels --frameless takes; default 0")->check(CLI::NonNegativeNumber);
     add_search(app, job.search);
-    add(app, "--aov", job.aovs, "LIST", "layers of an EXR: distance,primitive,group,cells,tests,time");
+    add(app, "--aov", job.aovs, "LIST", "layers of an EXR: distance,primitive,group,cells,tests,time,age");
     app.add_flag("--structure", job.structure,
                  "draw boxes and filled cells over the pictures; those of few pixels fade out");
     add(app, "--output", job.output, "NAME", "a run of # is the frame; default SCENE.####.png here, .exr with --aov");
@@ -86,6 +100,30 @@ void add_render(CLI::App& app, RenderJob& job)
     app.add_flag("--table", job.table, "print a line of times per frame to standard output");
     add(app, "--progress", job.progress, "WHEN", "auto (not beside --table), always or never; default auto");
     app.footer(render_examples);
+}
+
+void add_compare(CLI::App& app, CompareJob& job)
+{
+    add_scene(app, job.scene);
+    add(app, "RESULTS", job.other, " ", "with results.json for SCENE: tell what changed, exit 1 where it is worse");
+    add(app, "--strategies", job.strategies, "LIST",
+        "e.g. grid,obb,obb+obb-top=list,embree; default all, list only where it is quick");
+    add(app, "--frames", job.frames, "LIST", "as for render; default 8, spread over the animation");
+    add(app, "--size", job.size, "WxH", "pictures' size; default: the scene's");
+    add_int(app, "--depth", job.depth, 0, 64, "reflections and refractions in a row; default 4");
+    add_int(app, "--spp", job.samples, 1, 4096, "samples per pixel; default 1");
+    add_int(app, "--repeat", job.repeat, 1, 1000, "timed rounds through all frames; default 5");
+    add_int(app, "--check-rays", job.check_rays, 0, 1 << 30,
+            "rays a frame checked against list; default 0, for about a third of a second");
+    add_structure(app, job.search);
+    add(app, "--pictures", job.pictures, "LIST", "frames that the report shows; default the one of most rays");
+    add(app, "--frameless", job.frameless, "LIST", "also try frameless rendering, e.g. 1,1/2,1/4,1/8,1/16,1/32,1/64");
+    app.add_flag("--trade", job.trade, "also try what buys speed with accuracy, for the fastest of our own");
+    add(app, "--seed", job.seed, "N", "which pixels --frameless takes; default 0")->check(CLI::NonNegativeNumber);
+    add(app, "--report", job.report, "DIR", "folder for the report; default out/SCENE-report");
+    app.add_flag("--json", job.json, "print the results as JSON, not as a table");
+    add(app, "--progress", job.progress, "WHEN", "auto, always or never; default auto");
+    app.footer(compare_examples);
 }
 
 void add_info(CLI::App& app, InfoJob& job)
@@ -162,6 +200,7 @@ std::string one_line(std::string text)
 void dispatch(std::span<const std::string> arguments, Streams streams)
 {
     RenderJob render;
+    CompareJob compare;
     InfoJob info;
     TraceJob trace;
     CLI::App app("firstray: ray tracing of animated scenes", "firstray");
@@ -170,6 +209,7 @@ void dispatch(std::span<const std::string> arguments, Streams streams)
     app.get_formatter()->column_width(28);
     app.allow_extras();
     add_render(*app.add_subcommand("render", "render frames to picture files"), render);
+    add_compare(*app.add_subcommand("compare", "measure strategies side by side and check that they agree"), compare);
     add_info(*app.add_subcommand("info", "tell what a scene consists of"), info);
     add_trace(*app.add_subcommand("trace", "find what given rays hit"), trace);
 
@@ -185,6 +225,10 @@ void dispatch(std::span<const std::string> arguments, Streams streams)
     refuse_extras(app);
     refuse_extras(command);
     if (command.get_name() == "render") return render_scene(render, streams);
+    if (command.get_name() == "compare") {
+        compare.command_line = fmt::format("firstray {}", fmt::join(arguments, " "));
+        return compare_strategies(compare, streams);
+    }
     if (command.get_name() == "info") {
         if (info.costs.empty() || info.structure) require(command, "SCENE");
         if (info.replaces_costs()) info.search.own["costs"] = info.costs;

@@ -33,12 +33,35 @@ struct RenderJob {
     std::string size;  ///< empty: the scene's
     int depth = 4;
     int samples = 1;
+    std::string frameless = "1";
+    std::uint64_t seed = 0;
     std::string aovs;
     std::string output;  ///< empty: the scene's name in the current folder
     std::string stats;   ///< empty: none
     std::string progress = "auto";
     bool table = false;
     bool structure = false;  ///< draw it over the pictures
+};
+
+struct CompareJob {
+    SceneChoice scene;
+    std::string other;       ///< the second of two results to be compared; the first is then scene.file
+    SearchChoice search;     ///< of every strategy
+    std::string strategies;  ///< empty: all
+    std::string frames;      ///< empty: some, spread over the animation
+    std::string size;        ///< empty: the scene's
+    int depth = 4;
+    int samples = 1;
+    int repeat = 5;
+    int check_rays = 0;
+    std::string pictures;   ///< frames to draw; empty: the one of most rays
+    std::string frameless;  ///< shares to try; empty: none
+    std::uint64_t seed = 0;
+    std::string report;  ///< folder; empty: out/NAME-report
+    bool trade = false;  ///< also try what buys speed with accuracy
+    bool json = false;
+    std::string progress = "auto";
+    std::string command_line;
 };
 
 struct InfoJob {
@@ -62,6 +85,7 @@ struct TraceJob {
 
 /// Each throws Error for what is the user's to mend, and whatever the engine throws.
 void render_scene(const RenderJob& job, Streams streams);
+void compare_strategies(const CompareJob& job, Streams streams);
 void print_info(const InfoJob& job, Streams streams);
 void trace_rays(const TraceJob& job, Streams streams);
 

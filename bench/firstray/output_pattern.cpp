@@ -9,9 +9,10 @@
 namespace firstray::command {
 namespace {
 
-constexpr std::string_view aov_names[] = {"distance", "primitive", "group", "cells", "tests", "time"};
+constexpr std::string_view aov_names[] = {"distance", "primitive", "group", "cells", "tests", "time", "age"};
 constexpr image::Aov aovs_by_name[] = {image::Aov::distance, image::Aov::primitive, image::Aov::group,
-                                       image::Aov::cells,    image::Aov::tests,     image::Aov::time};
+                                       image::Aov::cells,    image::Aov::tests,     image::Aov::time,
+                                       image::Aov::age};
 
 }  // namespace
 

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "bench/firstray/words.h"
 
 namespace firstray::command {
@@ -35,17 +37,42 @@ void Progress::message(std::string_view text)
     err_ << "firstray: " << text << std::endl;
 }
 
+/// "3/10, 30 %, 0:12 left".
+std::string Progress::standing() const
+{
+    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start_;
+    const std::size_t all = std::max(frames_, done_);
+    if (done_ == 0) return fmt::format("0/{}", all);
+    const double left = elapsed.count() / static_cast<double>(done_) * static_cast<double>(all - done_);
+    return fmt::format("{}/{}, {} %, {} left", done_, all, 100 * done_ / all, format_duration(left));
+}
+
 void Progress::frame_done(int frame)
 {
     ++done_;
     if (style_ == ProgressStyle::never) return;
-    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start_;
-    const double left = elapsed.count() / static_cast<double>(done_) * static_cast<double>(frames_ - done_);
-    const std::string text = fmt::format("frame {} ({}/{}), {} %, {} left", frame, done_, frames_,
-                                         100 * done_ / frames_, format_duration(left));
+    const std::string text = fmt::format("frame {} ({})", frame, standing());
     if (style_ == ProgressStyle::lines) return message(text);
     err_ << "\r\x1b[K" << text << std::flush;
     line_open_ = true;
+}
+
+void Progress::step(const std::string& what)
+{
+    constexpr std::chrono::seconds between_lines(10);
+    if (in_step_) ++done_;
+    in_step_ = true;
+    if (style_ == ProgressStyle::never) return;
+    const std::string text = fmt::format("{} ({})", what, standing());
+    if (style_ == ProgressStyle::rewritten) {
+        err_ << "\r\x1b[K" << text << std::flush;
+        line_open_ = true;
+        return;
+    }
+    const auto now = std::chrono::steady_clock::now();
+    if (now - last_line_ < between_lines) return;
+    last_line_ = now;
+    message(text);
 }
 
 std::string format_duration(double seconds)

@@ -25,17 +25,24 @@ public:
     Progress& operator=(const Progress&) = delete;
 
     void frame_done(int frame);
+
+    /// More steps are to come than was thought.
+    void expect(std::size_t steps) { frames_ += steps; }
+    /// A step begins, which ends the one before it. Beside a terminal, a line about every ten seconds.
+    void step(const std::string& what);
+
     /// Writes a line that stays.
     void message(std::string_view text);
 
 private:
     void clear();
+    std::string standing() const;
 
     std::ostream& err_;
     ProgressStyle style_;
     std::size_t frames_, done_ = 0;
-    bool line_open_ = false;
-    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+    bool line_open_ = false, in_step_ = false;
+    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now(), last_line_{};
 };
 
 /// "h:mm:ss", or "m:ss" below an hour.

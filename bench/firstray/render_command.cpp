@@ -3,31 +3,25 @@
 #include <set>
 
 #include "bench/firstray/frame_list.h"
-#include "bench/firstray/frame_loop.h"
 #include "bench/firstray/jobs.h"
 #include "bench/firstray/output_pattern.h"
 #include "bench/firstray/progress.h"
 #include "bench/firstray/search.h"
 #include "bench/firstray/stats.h"
 #include "bench/firstray/words.h"
+#include "bench/measure/frame_loop.h"
 #include "engine/aff/reader.h"
 #include "engine/render/draw_structure.h"
+#include "engine/render/frameless.h"
 
 namespace firstray::command {
 namespace {
-
-glm::ivec2 parse_size(std::string_view text)
-{
-    const auto axes = split(text, 'x');
-    if (axes.size() != 2) throw UsageError(fmt::format("--size: '{}', expected WIDTHxHEIGHT, e.g. 800x600", text));
-    const int largest = ReadLimits{}.resolution;
-    return {parse_int("--size: width", axes[0], 1, largest), parse_int("--size: height", axes[1], 1, largest)};
-}
 
 /// A job with every word read and every default filled in.
 struct Plan {
     std::vector<int> frames;
     RenderOptions options;
+    int turns = 1;  ///< of frameless rendering
     std::vector<image::Aov> aovs;
     std::string output;
 };
@@ -36,6 +30,7 @@ Plan plan_of(const RenderJob& job, const std::vector<FrameRange>& ranges, const 
 {
     Plan plan;
     plan.frames = frames_of(ranges, scene.frames);
+    plan.turns = parse_share("--frameless", job.frameless);
     plan.aovs = parse_aovs(job.aovs);
     const glm::ivec2 size = job.size.empty() ? glm::ivec2(scene.view.width, scene.view.height) : parse_size(job.size);
     plan.options = {
@@ -60,6 +55,7 @@ std::vector<FrameRange> check_words(const RenderJob& job, bool terminal)
     const bool layers = !parse_aovs(job.aovs).empty();
     if (!job.output.empty()) check_pattern(job.output, 1, layers);
     progress_style(job.progress, terminal);
+    parse_share("--frameless", job.frameless);
     return parse_frame_list(job.frames);
 }
 
@@ -72,6 +68,8 @@ Json settings_of(const RenderJob& job, const Plan& plan, const Executor& executo
             {"size", {plan.options.width, plan.options.height}},
             {"depth", plan.options.depth},
             {"spp", plan.options.samples},
+            {"frameless", fmt::format("1/{}", plan.turns)},
+            {"seed", job.seed},
             {"threads", executor.threads()},
             {"grid_density", job.search.grid_density},
             {"max_list", job.search.max_list},
@@ -131,10 +129,14 @@ Totals render_frames(const RenderJob& job, const Plan& plan, FrameLoop<Real>& lo
     Progress progress(streams.err, style_of(job, streams.terminal), plan.frames.size());
     SingularWarnings warnings;
     Frame picture;
+    const FramelessTurns turns(plan.options.width, plan.options.height, plan.turns, job.seed);
+    std::size_t next_turn = 0;
     bool drawn = false;
     if (job.table) streams.out << table_heading();
     for (const int frame : plan.frames) {
-        const FrameStats stats = loop.render(frame, picture);
+        const bool is_whole = plan.turns == 1 || frame == plan.frames.front();
+        const FrameStats stats = is_whole ? loop.render(frame, plan.options, picture)
+                                          : loop.render_part(frame, plan.options, turns.pixels(next_turn++), picture);
         const Pose& pose = loop.current_pose();
         warnings.add(pose, frame, progress);
         const std::vector<StructureBox> outline = job.structure ? loop.outline() : std::vector<StructureBox>{};
@@ -182,8 +184,7 @@ void render_scene(const RenderJob& job, Streams streams)
     StatsFile stats_file(job.stats, settings_of(job, plan, executor));
     const Totals totals = std::visit(
         [&](const auto& chosen) {
-            return render_all(job, plan, FrameLoop(scene, textures, *chosen, plan.options, executor), stats_file,
-                              streams);
+            return render_all(job, plan, FrameLoop(scene, textures, *chosen, executor), stats_file, streams);
         },
         strategy);
     const double frames = static_cast<double>(plan.frames.size());

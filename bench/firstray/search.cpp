@@ -80,16 +80,21 @@ Json own_choices_of(const SearchChoice& choice)
     return chosen;
 }
 
+StrategyOptions options_of(const SearchChoice& choice)
+{
+    return {.precision = parse_precision(choice.precision),
+            .grid_density = choice.grid_density,
+            .max_list = choice.max_list,
+            .structure_budget = choice.structure_budget,
+            .grid_depth = choice.grid_depth};
+}
+
 AnyStrategy make_strategy(const SearchChoice& choice, const Scene& scene, const Executor& executor)
 {
     check_search(choice);
     const StrategyEntry& entry = parse_strategy(choice.strategy);
-    StrategyOptions options{.precision = parse_precision(choice.precision),
-                            .grid_density = choice.grid_density,
-                            .max_list = choice.max_list,
-                            .structure_budget = choice.structure_budget,
-                            .grid_depth = choice.grid_depth,
-                            .executor = &executor};
+    StrategyOptions options = options_of(choice);
+    options.executor = &executor;
     for (const auto& [flag, word] : choice.own)
         if (!word.empty()) options.own.emplace_back(flag, word);
     if (options.precision == Precision::double_) return entry.make_double(scene, options);

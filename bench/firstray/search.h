@@ -22,6 +22,10 @@ void check_search(const SearchChoice& choice);
 /// The choices that the strategy alone offers, with their words.
 Json own_choices_of(const SearchChoice& choice);
 
+/// What strategies are made with; the executor and own choices are left out.
+/// throws  UsageError
+StrategyOptions options_of(const SearchChoice& choice);
+
 /// throws  UsageError, and what making the strategy throws
 AnyStrategy make_strategy(const SearchChoice& choice, const Scene& scene, const Executor& executor);
 

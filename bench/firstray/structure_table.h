@@ -2,7 +2,7 @@
 #include <span>
 #include <string>
 
-#include "bench/firstray/stats.h"
+#include "bench/measure/frame_stats.h"
 #include "engine/strategy/outline.h"
 
 namespace firstray::command {

@@ -7,6 +7,8 @@
 #include <numeric>
 #include <utility>
 
+#include "engine/aff/reader.h"
+
 namespace firstray::command {
 namespace {
 
@@ -52,6 +54,22 @@ int parse_int(std::string_view what, std::string_view text, int low, int high)
     if (error != std::errc{} || end != text.data() + text.size() || value < low || value > high)
         throw UsageError(fmt::format("{}: '{}', expected a whole number from {} to {}", what, text, low, high));
     return value;
+}
+
+glm::ivec2 parse_size(std::string_view text)
+{
+    const auto axes = split(text, 'x');
+    if (axes.size() != 2) throw UsageError(fmt::format("--size: '{}', expected WIDTHxHEIGHT, e.g. 800x600", text));
+    const int largest = ReadLimits{}.resolution;
+    return {parse_int("--size: width", axes[0], 1, largest), parse_int("--size: height", axes[1], 1, largest)};
+}
+
+int parse_share(std::string_view what, std::string_view text)
+{
+    constexpr int smallest_share = 4096;
+    if (text == "1") return 1;
+    if (!text.starts_with("1/")) throw UsageError(fmt::format("{}: '{}', expected 1 or 1/X, e.g. 1/5", what, text));
+    return parse_int(what, text.substr(2), 1, smallest_share);
 }
 
 std::string list_of(std::span<const std::string_view> words)

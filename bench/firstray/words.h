@@ -1,4 +1,6 @@
 #pragma once
+#include <glm/glm.hpp>
+
 #include <span>
 #include <string>
 #include <string_view>
@@ -24,6 +26,14 @@ std::string_view trim(std::string_view text);
 /// what    names the value in the message, e.g. "--size"
 /// throws  UsageError
 int parse_int(std::string_view what, std::string_view text, int low, int high);
+
+/// "WIDTHxHEIGHT" of a picture, as --size takes it.
+/// throws  UsageError
+glm::ivec2 parse_size(std::string_view text);
+
+/// X of "1/X", or 1 of "1": a share of the pixels.
+/// throws  UsageError
+int parse_share(std::string_view what, std::string_view text);
 
 /// "a, b or c".
 std::string list_of(std::span<const std::string_view> words);

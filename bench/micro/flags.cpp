@@ -40,13 +40,8 @@ std::vector<std::string_view> split(std::string_view text, char separator)
 
 Contestant contestant_of(std::string_view text)
 {
-    const auto pieces = split(text, '+');
-    Contestant contestant{std::string(text), entry_of(pieces[0]), {}};
-    for (std::size_t i = 1; i < pieces.size(); ++i) {
-        const std::size_t equals = pieces[i].find('=');
-        if (equals == std::string_view::npos) refuse("expected FLAG=WORD in " + std::string(text));
-        contestant.own.emplace_back(pieces[i].substr(0, equals), pieces[i].substr(equals + 1));
-    }
+    Contestant contestant = parse_contestant(text);
+    entry_of(contestant.entry->name);
     return contestant;
 }
 

@@ -3,18 +3,11 @@
 #include <string>
 #include <vector>
 
+#include "bench/measure/contestant.h"
 #include "bench/micro/frame_rays.h"
-#include "bench/strategies.h"
 #include "engine/core/executor.h"
 
 namespace firstray {
-
-/// A strategy with choices of its own.
-struct Contestant {
-    std::string name;  ///< e.g. "obb+obb-top=list"
-    const StrategyEntry* entry = nullptr;
-    std::vector<std::pair<std::string, std::string>> own;
-};
 
 /// What a measurement of one scene consists of.
 struct MeasurePlan {

@@ -1,6 +1,5 @@
 #include "bench/micro/summary.h"
 
-#include <algorithm>
 #include <cstdio>
 #include <ostream>
 
@@ -15,13 +14,6 @@ constexpr ReportedPart parts[] = {
     {"frame", [](const PhaseTimes& times) { return times.update + times.primary + times.shadow; }, true},
 };
 
-double median(std::vector<double> values)
-{
-    std::sort(values.begin(), values.end());
-    const std::size_t half = values.size() / 2;
-    return values.size() % 2 ? values[half] : (values[half - 1] + values[half]) / 2.0;
-}
-
 template <typename... Values>
 std::string format(const char* pattern, Values... values)
 {
@@ -34,7 +26,7 @@ void write_line(std::ostream& out, const Measured& base, const Measured& measure
 {
     out << format("  %-36s", measured.name.c_str());
     for (const ReportedPart& part : parts) {
-        const Ratio ratio = ratio_to(base, measured, part);
+        const Spread ratio = ratio_to(base, measured, part);
         out << format(" %9.1f ms x%6.3f [%6.3f %6.3f]", 1e3 * typical_seconds(measured, part), ratio.median,
                       ratio.least, ratio.most);
     }
@@ -66,15 +58,14 @@ double typical_seconds(const Measured& measured, const ReportedPart& part)
     return seconds;
 }
 
-Ratio ratio_to(const Measured& base, const Measured& measured, const ReportedPart& part)
+Spread ratio_to(const Measured& base, const Measured& measured, const ReportedPart& part)
 {
     std::vector<double> ratios;
     for (std::size_t round = 0; round < measured.rounds.size(); ++round) {
         const double cost = round_seconds(measured, round, part) / round_seconds(base, round, part);
         ratios.push_back(part.faster_is_above_one ? 1.0 / cost : cost);
     }
-    const auto [least, most] = std::minmax_element(ratios.begin(), ratios.end());
-    return {median(ratios), *least, *most};
+    return spread_of(ratios);
 }
 
 std::uint64_t rays_of(const Measurement& measurement, const ReportedPart& part)

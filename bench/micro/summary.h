@@ -4,6 +4,7 @@
 #include <string_view>
 #include <vector>
 
+#include "bench/measure/spread.h"
 #include "bench/micro/measurement.h"
 
 namespace firstray {
@@ -18,17 +19,13 @@ struct ReportedPart {
 /// update, primary, shadow, trace (primary and shadow) and frame (all of it).
 std::span<const ReportedPart> reported_parts();
 
-/// How a strategy compares with the base: the median, smallest and largest over the rounds.
-struct Ratio {
-    double median = 0.0, least = 0.0, most = 0.0;
-};
-
 /// Seconds that a part took in all frames of one round.
 double round_seconds(const Measured& measured, std::size_t round, const ReportedPart& part);
 /// Sum over frames of the median over rounds, seconds.
 double typical_seconds(const Measured& measured, const ReportedPart& part);
-/// Compares round by round: a round's measurements were taken side by side. Both have at least one round.
-Ratio ratio_to(const Measured& base, const Measured& measured, const ReportedPart& part);
+/// How a strategy compares with the base, round by round: a round's measurements were taken side by side. Both have at
+/// least one round.
+Spread ratio_to(const Measured& base, const Measured& measured, const ReportedPart& part);
 /// Rays that a part traces in all frames; none for update and frame.
 std::uint64_t rays_of(const Measurement& measurement, const ReportedPart& part);
 

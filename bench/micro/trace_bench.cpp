@@ -182,7 +182,7 @@ private:
         if (const std::uint64_t rays = rays_of(*measurement_, part))
             state.counters["Mrays/s"] = 1e-6 * static_cast<double>(rays) / typical_seconds(measured, part);
         if (const Measured* to = base()) {
-            const Ratio ratio = ratio_to(*to, measured, part);
+            const Spread ratio = ratio_to(*to, measured, part);
             state.counters["ratio"] = ratio.median;
             state.counters["ratio_least"] = ratio.least;
             state.counters["ratio_most"] = ratio.most;

@@ -116,6 +116,8 @@ const char* name_of(Aov aov)
             return "tests";
         case Aov::time:
             return "time";
+        case Aov::age:
+            return "age";
     }
     throw std::invalid_argument("write_frame: no such layer");
 }
@@ -140,6 +142,8 @@ void pack(const Frame& frame, Aov aov, std::size_t channel, Packed& packed)
             return pack<std::uint32_t>(frame.tests, channel, packed);
         case Aov::time:
             return pack<float>(frame.nanoseconds, channel, packed);
+        case Aov::age:
+            return pack<std::uint32_t>(frame.age, channel, packed);
     }
 }
 
@@ -172,10 +176,11 @@ std::vector<std::uint8_t> pack_png(const Frame& frame)
     return bytes;
 }
 
-/// Encodes in memory, then writes: the encoders themselves report success when a disk is full.
+/// Encodes in memory: the encoders themselves report success when a disk is full.
+/// file    for messages
 /// format  of `pixels`; unknown: each channel has its own
-void write_pixels(const fs::path& file, const char* format_name, OIIO::ImageSpec spec, Attributes attributes,
-                  OIIO::TypeDesc format, const void* pixels)
+std::string encode(const fs::path& file, const char* format_name, OIIO::ImageSpec spec, Attributes attributes,
+                   OIIO::TypeDesc format, const void* pixels)
 {
     for (const auto& [name, value] : attributes) spec.attribute(name, value);
     const auto out = OIIO::ImageOutput::create(format_name);
@@ -185,7 +190,20 @@ void write_pixels(const fs::path& file, const char* format_name, OIIO::ImageSpec
     const bool written = out->open(file.string(), spec) && out->write_image(format, pixels);
     if (!out->close() || !written) cannot_write(file, out->geterror());
     const auto& bytes = encoded.buffer();
-    write_whole_file(file, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+    return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+std::string encode_png(const fs::path& file, const Frame& frame, Attributes attributes)
+{
+    const std::vector<std::uint8_t> bytes = pack_png(frame);
+    return encode(file, "png", OIIO::ImageSpec(frame.width, frame.height, 3, OIIO::TypeUInt8), attributes,
+                  OIIO::TypeUInt8, bytes.data());
+}
+
+void check_picture(const Frame& frame)
+{
+    if (frame.pixel_count() == 0 || frame.colour.size() != frame.pixel_count())
+        throw std::invalid_argument("the frame has no picture");
 }
 
 }  // namespace
@@ -218,19 +236,23 @@ std::vector<Texture> read_textures(const Scene& scene, const ImageLimits& limits
     return textures;
 }
 
+std::string png_of(const Frame& frame)
+{
+    check_picture(frame);
+    return encode_png("in memory.png", frame, {});
+}
+
 void write_frame(const fs::path& file, const Frame& frame, std::span<const Aov> aovs, Attributes attributes)
 {
-    if (frame.pixel_count() == 0 || frame.colour.size() != frame.pixel_count())
-        throw std::invalid_argument("write_frame: the frame has no picture");
+    check_picture(frame);
     if (file.extension() == ".exr") {
         const Packed packed = pack_exr(frame, aovs);
         // An unknown format says that each channel comes in its own.
-        write_pixels(file, "openexr", packed.spec, attributes, OIIO::TypeUnknown, packed.words.data());
+        write_whole_file(file,
+                         encode(file, "openexr", packed.spec, attributes, OIIO::TypeUnknown, packed.words.data()));
     } else if (file.extension() == ".png") {
         if (!aovs.empty()) cannot_write(file, "PNG holds colour alone, write .exr for the layers asked for");
-        const std::vector<std::uint8_t> bytes = pack_png(frame);
-        write_pixels(file, "png", OIIO::ImageSpec(frame.width, frame.height, 3, OIIO::TypeUInt8), attributes,
-                     OIIO::TypeUInt8, bytes.data());
+        write_whole_file(file, encode_png(file, frame, attributes));
     } else {
         cannot_write(file, "the name must end in .exr or .png");
     }

@@ -13,9 +13,9 @@ namespace firstray::image {
 
 /// Bounds on pictures read; larger ones are refused by their header, before a pixel is read.
 struct ImageLimits {
-    int resolution = 16384;               ///< per axis
-    std::uint64_t bytes = 1u << 30;       ///< decoded
-    bool allow_outside = false;           ///< textures may lie outside the scene's folder
+    int resolution = 16384;          ///< per axis
+    std::uint64_t bytes = 1u << 30;  ///< decoded
+    bool allow_outside = false;      ///< textures may lie outside the scene's folder
 };
 
 /// Reads a picture as 8-bit RGB (grey is spread, alpha dropped).
@@ -26,13 +26,16 @@ Texture read_texture(const std::filesystem::path& file, const ImageLimits& limit
 std::vector<Texture> read_textures(const Scene& scene, const ImageLimits& limits = {});
 
 /// A layer that write_frame can add to an EXR file.
-enum class Aov { distance, primitive, group, cells, tests, time };
+enum class Aov { distance, primitive, group, cells, tests, time, age };
 
-/// Writes a frame: ".exr" (R G B as float and a channel per AOV, under the AOVs' names) or ".png" (8-bit R G B, no gamma; AOVs
-/// are refused). The file appears by rename, complete or not at all. Folders that do not exist are made.
+/// Writes a frame: ".exr" (R G B as float and a channel per AOV, under the AOVs' names) or ".png" (8-bit R G B, no
+/// gamma; AOVs are refused). The file appears by rename, complete or not at all. Folders that do not exist are made.
 /// attributes  text stored in the file's header, name and value (e.g. "firstray:frame", "12")
 /// throws      FileError
 void write_frame(const std::filesystem::path& file, const Frame& frame, std::span<const Aov> aovs,
                  std::span<const std::pair<std::string, std::string>> attributes = {});
+
+/// The bytes of the file that write_frame would write as ".png".
+std::string png_of(const Frame& frame);
 
 }  // namespace firstray::image

@@ -18,6 +18,8 @@ struct Frame {
     std::vector<PrimitiveId> primitive;     ///< no_primitive where nothing is hit
     std::vector<std::uint32_t> group;       ///< 4294967295 where nothing is hit
 
+    std::vector<std::uint32_t> age;  ///< rendered frames since the pixel was traced; 0: it is of this one
+
     // Of all rays of the pixel; empty unless asked for.
     std::vector<std::uint32_t> cells, tests;
     std::vector<float> nanoseconds;

@@ -1,4 +1,6 @@
 #pragma once
+#include <glm/glm.hpp>
+
 #include <cstdint>
 #include <span>
 #include <string>
@@ -36,5 +38,15 @@ struct RayCounts {
 template <typename Real>
 RayCounts render(const Strategy<Real>& strategy, const Pose& pose, std::span<const Texture> textures,
                  const RenderOptions& options, const Executor& executor, Frame& frame);
+
+/// Traces some pixels anew; the others keep what they have and grow older by a frame (Frame::age). A pixel that is
+/// traced is the same, bit for bit, as in a frame that is rendered whole.
+/// pixels  distinct; near ones beside each other trace fastest
+/// frame   as a render with the same options left it
+/// throws  as above, and std::invalid_argument for a frame of other options or a pixel outside of it
+template <typename Real>
+RayCounts render_pixels(const Strategy<Real>& strategy, const Pose& pose, std::span<const Texture> textures,
+                        const RenderOptions& options, const Executor& executor, std::span<const glm::ivec2> pixels,
+                        Frame& frame);
 
 }  // namespace firstray

@@ -48,6 +48,12 @@ TEST_CASE("a command line that cannot be taken is told in one line and exits wit
         {"render a.aff --aov depth", "expected distance, primitive"},
         {"render a.aff --output a.jpg", ".exr or .png"},
         {"render a.aff --progress often", "expected auto, always or never"},
+        {"render a.aff --frameless 0.2", "expected 1 or 1/X"},
+        {"render a.aff --seed -1", "--seed"},
+        {"compare a.aff --strategies grid,gird", "strategy 'gird', expected one of list"},
+        {"compare a.aff --strategies obb+obb-top=gird", "obb-top 'gird'"},
+        {"compare a.aff --repeat 0", "--repeat"},
+        {"compare a.aff --strategy grid", "did you mean --strategies?"},
         {"info a.aff --strategy grid", "--strategy requires --structure"},
         {"info a.aff --frame 3", "--frame requires --structure"},
         {"info a.aff --structure --strategy gird", "did you mean grid?"},
@@ -81,12 +87,12 @@ TEST_CASE("a command line that cannot be taken is told in one line and exits wit
 
 TEST_CASE("help fits one screen, ends in two examples and exits with 0")
 {
-    for (const std::string command : {"render", "info", "trace"}) {
+    for (const std::string command : {"render", "compare", "info", "trace"}) {
         CAPTURE(command);
         const Outcome outcome = call({command, "--help"});
         CHECK(outcome.code == 0);
         CHECK(outcome.err.empty());
-        CHECK(std::count(outcome.out.begin(), outcome.out.end(), '\n') <= 37);
+        CHECK(std::count(outcome.out.begin(), outcome.out.end(), '\n') <= 40);
         const std::string examples = outcome.out.substr(outcome.out.find("Examples:\n") + 10);
         CHECK(std::count(examples.begin(), examples.end(), '\n') == 2);
     }
@@ -277,6 +283,33 @@ TEST_CASE("render draws the structure over what it writes, and hashes the pictur
         CHECK(channels(folder.path() / ("plain" + extension)) != channels(folder.path() / ("drawn" + extension)));
     }
     CHECK(read_json(folder.path() / "stats.json")["settings"]["structure"] == true);
+}
+
+TEST_CASE("frameless, a share of 1 is the ordinary picture, another traces that share of every frame but the first")
+{
+    const test::TempFolder folder;
+    const std::string scene = folder.write("square.aff", moving_square).string();
+    const auto render = [&](const std::vector<std::string>& more) {
+        const auto stats = (folder.path() / "stats.json").string();
+        std::vector<std::string> arguments = {
+            "render", scene,     "--frames", "0-4",      "--aov",
+            "age",    "--stats", stats,      "--output", (folder.path() / "a.#.exr").string()};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        REQUIRE(call(arguments).code == 0);
+        return read_json(stats);
+    };
+    const auto plain = render({}), whole = render({"--frameless", "1"}), part = render({"--frameless", "1/8"}),
+               again = render({"--frameless", "1/8"}), other = render({"--frameless", "1/8", "--seed", "7"});
+    CHECK(part["settings"]["frameless"] == "1/8");
+    for (std::size_t i = 0; i < 5; ++i) {
+        CAPTURE(i);
+        CHECK(whole["frames"][i]["image_hash"] == plain["frames"][i]["image_hash"]);
+        CHECK(again["frames"][i]["image_hash"] == part["frames"][i]["image_hash"]);
+        CHECK(part["frames"][i]["rays"]["primary"] == (i == 0 ? 16 * 12 : 16 * 12 / 8));
+    }
+    CHECK(part["frames"][0]["image_hash"] == plain["frames"][0]["image_hash"]);
+    CHECK(part["frames"][4]["image_hash"] != plain["frames"][4]["image_hash"]);
+    CHECK(other["frames"][4]["image_hash"] != part["frames"][4]["image_hash"]);
 }
 
 }  // namespace

@@ -30,9 +30,25 @@ TEST_CASE("progress is one rewritten line on a terminal, lines elsewhere, nothin
         const std::string text = err.str();
         CHECK(std::count(text.begin(), text.end(), '\n') == lines);
         CHECK(std::count(text.begin(), text.end(), '\r') == returns);  // the last one clears the line
-        CHECK((text.find("frame 10 (2/2), 100 %, 0:00 left") != std::string::npos) == (lines + returns > 0));
+        CHECK((text.find("frame 10 (2/2, 100 %, 0:00 left)") != std::string::npos) == (lines + returns > 0));
     }
     CHECK_THROWS_AS(progress_style("sometimes", true), UsageError);
+}
+
+TEST_CASE("steps that begin tell how many have ended, on one line or on lines that are rare")
+{
+    std::ostringstream terminal, log;
+    {
+        Progress rewritten(terminal, ProgressStyle::rewritten, 0), lines(log, ProgressStyle::lines, 0);
+        for (Progress* progress : {&rewritten, &lines}) {
+            progress->expect(4);
+            for (const std::string what : {"a", "b", "c"}) progress->step(what);
+        }
+    }
+    CHECK(terminal.str().find("a (0/4)") != std::string::npos);
+    CHECK(terminal.str().find("c (2/4, 50 %, 0:00 left)") != std::string::npos);
+    CHECK(terminal.str().find('\n') == std::string::npos);
+    CHECK(log.str() == "firstray: a (0/4)\n");
 }
 
 TEST_CASE("time left is told in hours, minutes and seconds")

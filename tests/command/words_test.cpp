@@ -34,5 +34,16 @@ TEST_CASE("splitting keeps empty parts")
     CHECK(split("a,", ',') == std::vector<std::string_view>{"a", ""});
 }
 
+TEST_CASE("a share of the pixels is 1 or 1/X")
+{
+    CHECK(parse_share("--frameless", "1") == 1);
+    CHECK(parse_share("--frameless", "1/1") == 1);
+    CHECK(parse_share("--frameless", "1/64") == 64);
+    for (const std::string text : {"", "2", "1/", "1/0", "1/-3", "1/4097", "2/3", "0.5", "1/5x"}) {
+        CAPTURE(text);
+        CHECK_THROWS_WITH_AS(parse_share("--frameless", text), doctest::Contains("--frameless"), UsageError);
+    }
+}
+
 }  // namespace
 }  // namespace firstray::command

@@ -23,7 +23,7 @@ std::ptrdiff_t entries(const test::TempFolder& folder)
 }
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
-constexpr Aov all_aovs[] = {Aov::distance, Aov::primitive, Aov::group, Aov::cells, Aov::tests, Aov::time};
+constexpr Aov all_aovs[] = {Aov::distance, Aov::primitive, Aov::group, Aov::cells, Aov::tests, Aov::time, Aov::age};
 
 /// 2x2 pixels; every layer holds values that a detour through another type would change.
 Frame awkward_frame()
@@ -37,6 +37,7 @@ Frame awkward_frame()
     frame.cells = {0, 1, 2147483648u, 4294967295u};
     frame.tests = {3, 16777219u, 5, 6};
     frame.nanoseconds = {0.0f, 0.5f, 1234567.0f, 3.0e9f};
+    frame.age = {0, 3, 16777221u, 4294967293u};
     return frame;
 }
 
@@ -87,13 +88,14 @@ TEST_CASE("an EXR frame keeps the type and every bit of all layers")
     const Frame frame = awkward_frame();
     write_frame(folder.path() / "frame.exr", frame, all_aovs);
     const ReadBack read = read_back(folder.path() / "frame.exr");
-    CHECK(read.spec.nchannels == 9);
+    CHECK(read.spec.nchannels == 10);
     CHECK(read.floats("distance") == frame.distance);
     CHECK(read.uints("primitive") == frame.primitive);
     CHECK(read.uints("group") == frame.group);
     CHECK(read.uints("cells") == frame.cells);
     CHECK(read.uints("tests") == frame.tests);
     CHECK(read.floats("time") == frame.nanoseconds);
+    CHECK(read.uints("age") == frame.age);
     for (int c = 0; c < 3; ++c) {
         const std::vector<float> layer = read.floats(std::string(1, "RGB"[c]));
         for (std::size_t i = 0; i < 4; ++i) CHECK(layer[i] == frame.colour[i][c]);
