@@ -203,8 +203,8 @@ struct BeamWorld {
                                    const BeamRootPrimitives& primitives) const
     {
         static const GridStructure none_at_all;
-        BeamSearch<BeamQuest, BeamRootPrimitives> search{
-            quest, quest.root, primitives, &none_at_all, quest.precision == Precision::fast ? 1.0f : 0.0f};
+        BeamSearch<BeamQuest, BeamRootPrimitives> search{quest, quest.root, primitives, &none_at_all,
+                                                         quest.precision == Precision::fast ? 1.0f : 0.0f};
         search.wide = std::numeric_limits<float>::infinity();  // no depth is known here to be beyond anything
         const Group& g = target.scene->groups[group];
         PackOfPieces pack;

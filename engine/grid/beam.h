@@ -35,23 +35,20 @@ struct BeamRays {
     alignas(64) Lane v;
     alignas(64) std::array<PrimitiveId, capacity> id;
 
-    glm::vec3 direction_of(std::size_t ray) const
-    {
-        return {direction[0][ray], direction[1][ray], direction[2][ray]};
-    }
+    glm::vec3 direction_of(std::size_t ray) const { return {direction[0][ray], direction[1][ray], direction[2][ray]}; }
 };
 
 /// A beam as grids see it, in the system of one structure. Axis k is the major one; depth is counted along it from the
 /// apex. A ray's slopes are its u and v per depth; a packet's rays are somewhere in a rectangle of slopes.
 struct Beam {
     int u = 0, v = 1, k = 2;
-    float forward = 1.0f;            ///< 1 or -1: the direction along k
-    float apex[3] = {};              ///< along u, v, k
-    float farthest = 0.0f;           ///< largest coordinate of the apex
-    float steepest = 1.0f;           ///< the largest slope in magnitude, at least 1
-    PacketMask packets = 0;          ///< those that are here
-    int count = 0;                   ///< packets are below it
-    float lo[2] = {}, hi[2] = {};    ///< slopes of all
+    float forward = 1.0f;          ///< 1 or -1: the direction along k
+    float apex[3] = {};            ///< along u, v, k
+    float farthest = 0.0f;         ///< largest coordinate of the apex
+    float steepest = 1.0f;         ///< the largest slope in magnitude, at least 1
+    PacketMask packets = 0;        ///< those that are here
+    int count = 0;                 ///< packets are below it
+    float lo[2] = {}, hi[2] = {};  ///< slopes of all
     alignas(64) float lo_u[max_packets], hi_u[max_packets], lo_v[max_packets], hi_v[max_packets];
     alignas(64) float reach[max_packets];  ///< depth beyond which a packet needs nothing; negative: it is done
     alignas(64) float scale[max_packets];  ///< depth here per depth in the root system, at most

@@ -40,10 +40,12 @@ HWY_INLINE PacketMask packets_meeting(const Beam& root, const BoxPack& pack, int
             // In the slab where start + depth * least <= 1 and start + depth * most >= -1.
             const auto at = hn::Set(d, start[i]);
             const auto below = hn::Div(hn::Sub(one, at), hn::IfThenElse(hn::Lt(hn::Abs(least), tiny), tiny, least));
-            const auto above = hn::Div(hn::Sub(hn::Neg(one), at), hn::IfThenElse(hn::Lt(hn::Abs(most), tiny), hn::Neg(tiny), most));
+            const auto above =
+                hn::Div(hn::Sub(hn::Neg(one), at), hn::IfThenElse(hn::Lt(hn::Abs(most), tiny), hn::Neg(tiny), most));
             const auto falls = hn::Lt(least, hn::Neg(tiny)), rises = hn::Gt(most, tiny);
             enter = hn::Max(enter, hn::Max(hn::IfThenElse(falls, below, zero), hn::IfThenElse(rises, above, zero)));
-            leave = hn::Min(leave, hn::Min(hn::IfThenElse(falls, infinite, below), hn::IfThenElse(rises, infinite, above)));
+            leave =
+                hn::Min(leave, hn::Min(hn::IfThenElse(falls, infinite, below), hn::IfThenElse(rises, infinite, above)));
         }
         return hn::Le(enter, leave);
     });

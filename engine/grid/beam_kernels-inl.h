@@ -1,5 +1,5 @@
-// Wide kernels of beams: packets side by side against a box or a triangle, and the sixteen rays of a packet against a
-// triangle. Included once per instruction set; what they return does not depend on it.
+// Wide kernels of beams: packets side by side against a box or a triangle, sixteen boxes or triangles against a beam.
+// Included once per instruction set; what they return does not depend on it.
 #if defined(FIRSTRAY_BEAM_KERNELS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef FIRSTRAY_BEAM_KERNELS_INL_H_
 #undef FIRSTRAY_BEAM_KERNELS_INL_H_
@@ -42,7 +42,7 @@ struct BeamBox {
 HWY_INLINE BeamBox beam_box(const Beam& beam, const glm::vec3& lo, const glm::vec3& hi, float wide)
 {
     const float a = beam.forward * (lo[beam.k] - beam.apex[2]), b = beam.forward * (hi[beam.k] - beam.apex[2]);
-    return {lo[beam.u] - beam.apex[0] - wide, hi[beam.u] - beam.apex[0] + wide, lo[beam.v] - beam.apex[1] - wide,
+    return {lo[beam.u] - beam.apex[0] - wide, hi[beam.u] - beam.apex[0] + wide,      lo[beam.v] - beam.apex[1] - wide,
             hi[beam.v] - beam.apex[1] + wide, std::max(std::min(a, b) - wide, 0.0f), std::max(a, b) + wide};
 }
 
@@ -55,11 +55,11 @@ HWY_INLINE PacketMask packets_meeting(const Beam& beam, const BeamBox& box, Pack
     return packets_where(beam.count, asked, [&](int first) HWY_ATTR {
         const auto lo_u = hn::Load(d, beam.lo_u + first), hi_u = hn::Load(d, beam.hi_u + first);
         const auto lo_v = hn::Load(d, beam.lo_v + first), hi_v = hn::Load(d, beam.hi_v + first);
-        const auto apart = hn::Or(
-            hn::Or(hn::Gt(hn::Min(hn::Mul(lo_u, near), hn::Mul(lo_u, far)), hn::Set(d, box.hi_u)),
-                   hn::Lt(hn::Max(hn::Mul(hi_u, near), hn::Mul(hi_u, far)), hn::Set(d, box.lo_u))),
-            hn::Or(hn::Gt(hn::Min(hn::Mul(lo_v, near), hn::Mul(lo_v, far)), hn::Set(d, box.hi_v)),
-                   hn::Lt(hn::Max(hn::Mul(hi_v, near), hn::Mul(hi_v, far)), hn::Set(d, box.lo_v))));
+        const auto apart =
+            hn::Or(hn::Or(hn::Gt(hn::Min(hn::Mul(lo_u, near), hn::Mul(lo_u, far)), hn::Set(d, box.hi_u)),
+                          hn::Lt(hn::Max(hn::Mul(hi_u, near), hn::Mul(hi_u, far)), hn::Set(d, box.lo_u))),
+                   hn::Or(hn::Gt(hn::Min(hn::Mul(lo_v, near), hn::Mul(lo_v, far)), hn::Set(d, box.hi_v)),
+                          hn::Lt(hn::Max(hn::Mul(hi_v, near), hn::Mul(hi_v, far)), hn::Set(d, box.lo_v))));
         return hn::AndNot(apart, hn::Ge(hn::Load(d, beam.reach + first), near));
     });
 }
@@ -73,15 +73,15 @@ HWY_INLINE std::uint32_t boxes_meeting(const PackBoxes& boxes, const Beam& beam,
     const auto apex_k = hn::Set(d, beam.apex[2]);
     std::uint32_t found = 0;
     for (int lane = 0; lane < pack_size; lane += kernel_lanes) {
-        const auto depth = [&](const float* side) HWY_ATTR {
-            return hn::Mul(forward, hn::Sub(hn::Load(d, side + lane), apex_k));
-        };
+        const auto depth = [&](const float* side)
+                               HWY_ATTR { return hn::Mul(forward, hn::Sub(hn::Load(d, side + lane), apex_k)); };
         const auto near = hn::Max(hn::Sub(depth((up ? boxes.lo : boxes.hi)[beam.k]), widen), zero),
                    far = hn::Add(depth((up ? boxes.hi : boxes.lo)[beam.k]), widen);
         auto met = hn::Ge(far, zero);
         for (int side = 0; side < 2; ++side) {
             const int axis = side == 0 ? beam.u : beam.v;
-            const auto shift = hn::Set(d, beam.apex[side]), lo = hn::Set(d, beam.lo[side]), hi = hn::Set(d, beam.hi[side]);
+            const auto shift = hn::Set(d, beam.apex[side]), lo = hn::Set(d, beam.lo[side]),
+                       hi = hn::Set(d, beam.hi[side]);
             const auto box_lo = hn::Sub(hn::Sub(hn::Load(d, boxes.lo[axis] + lane), shift), widen),
                        box_hi = hn::Add(hn::Sub(hn::Load(d, boxes.hi[axis] + lane), shift), widen);
             met = hn::And(met, hn::Le(hn::Min(hn::Mul(lo, near), hn::Mul(lo, far)), box_hi));
@@ -175,15 +175,15 @@ HWY_INLINE std::uint32_t make_beam_triangles(const TrianglePack& pack, const Bea
             cross(e[i], sum, n[i]);
         }
         cross(e[1], e[2], normal);
-        const V height = hn::Add(hn::Add(hn::Mul(normal[0], a[0][0]), hn::Mul(normal[1], a[0][1])),
-                                 hn::Mul(normal[2], a[0][2]));
+        const V height =
+            hn::Add(hn::Add(hn::Mul(normal[0], a[0][0]), hn::Mul(normal[1], a[0][1])), hn::Mul(normal[2], a[0][2]));
 
         // The volume between the apex and the triangle has the sign that the sides of a hit have. Seen edge-on, both
         // signs may occur: nothing is certain then.
         const V volume = hn::MulAdd(n[0][0], a[0][0], hn::MulAdd(n[0][1], a[0][1], hn::Mul(n[0][2], a[0][2])));
         const V doubt = hn::Mul(hn::Set(d, 4.0f), hn::Mul(error, distance));
-        error = hn::IfThenElse(hn::Gt(hn::Abs(volume), doubt), error,
-                               hn::Set(d, std::numeric_limits<float>::infinity()));
+        error =
+            hn::IfThenElse(hn::Gt(hn::Abs(volume), doubt), error, hn::Set(d, std::numeric_limits<float>::infinity()));
         const V flip = hn::And(volume, hn::SignBit(d));
         auto apart = hn::Lt(far, zero);
         for (int i = 0; i < 3; ++i) {
@@ -192,7 +192,8 @@ HWY_INLINE std::uint32_t make_beam_triangles(const TrianglePack& pack, const Bea
                 hn::Store(n[i][axis], d, out.side[i][axis] + lane);
             }
             const auto most_along = [&](const V& factor, int side) HWY_ATTR {
-                return hn::Max(hn::Mul(factor, hn::Set(d, bounds.lo[side])), hn::Mul(factor, hn::Set(d, bounds.hi[side])));
+                return hn::Max(hn::Mul(factor, hn::Set(d, bounds.lo[side])),
+                               hn::Mul(factor, hn::Set(d, bounds.hi[side])));
             };
             const V most = hn::Add(hn::Add(most_along(n[i][beam.u], 0), most_along(n[i][beam.v], 1)),
                                    hn::Mul(n[i][beam.k], forward));
@@ -234,162 +235,6 @@ HWY_INLINE PacketMask packets_meeting(const Beam& beam, const BeamTriangles& tri
         }
         return hn::Not(apart);
     });
-}
-
-/// One triangle as BeamTriangles has sixteen.
-struct ApexTriangle {
-    glm::vec3 side[3];    ///< its dot product with a direction is the side u, v, w
-    glm::vec3 normal;     ///< Ng
-    float height, span, distance, edge;
-    bool has_volume;      ///< float's t can be trusted, as far as this goes
-
-    void set_volume()
-    {
-        const float volume = span * distance;
-        has_volume = volume > least_bound<float> && volume < most_volume;
-    }
-};
-
-HWY_INLINE ApexTriangle make_apex_triangle(const RootTriangle<float>& t, const glm::vec3& apex)
-{
-    const glm::vec3 a0 = t.v[0] - apex, a1 = t.v[1] - apex, a2 = t.v[2] - apex;
-    const glm::vec3 e1 = t.v[0] - t.v[2], e2 = t.v[1] - t.v[0];
-    ApexTriangle p;
-    p.side[0] = cross_as_written<float>(t.v[2] - t.v[1], a1 + a2);
-    p.side[1] = cross_as_written<float>(e1, a2 + a0);
-    p.side[2] = cross_as_written<float>(e2, a0 + a1);
-    p.normal = cross_as_written<float>(e1, e2);
-    p.height = dot_as_written<float>(p.normal, a0);
-    p.span = largest_component<float>(e1) * largest_component<float>(e2);
-    p.distance = largest_component<float>(a0) + t.edge;
-    p.edge = t.edge;
-    p.set_volume();
-    return p;
-}
-
-HWY_INLINE ApexTriangle take_apex_triangle(const BeamTriangles& triangles, const TrianglePack& pack, int lane)
-{
-    ApexTriangle p;
-    for (int axis = 0; axis < 3; ++axis) {
-        for (int e = 0; e < 3; ++e) p.side[e][axis] = triangles.side[e][axis][lane];
-        p.normal[axis] = triangles.normal[axis][lane];
-    }
-    p.height = triangles.height[lane];
-    p.span = triangles.span[lane];
-    p.distance = triangles.distance[lane];
-    p.edge = pack.edge[lane];
-    p.set_volume();
-    return p;
-}
-
-/// What sixteen rays found.
-struct PacketHits {
-    std::uint32_t hits = 0;       ///< rays whose best hit this is now: written to the beam's rays
-    std::uint32_t uncertain = 0;  ///< rays that only the test of single rays can decide
-};
-
-/// intersect() of triangle.h for the sixteen rays from `first` on, and taking the hit where it counts.
-/// any_hit  that there is a hit is all that counts: t need not be exact where it is far enough from both ends
-template <bool any_hit>
-HWY_INLINE PacketHits test_packet(const ApexTriangle& p, PrimitiveId id, bool exact_signs, BeamRays& rays, int first)
-{
-    const PackLanes d;
-    const hn::RebindToUnsigned<PackLanes> du;
-    using V = hn::Vec<PackLanes>;
-    const auto set = [&](float x) HWY_ATTR { return hn::Set(d, x); };
-    PacketHits result;
-    for (int lane = first; lane < first + packet_size; lane += kernel_lanes) {
-        const V x = hn::Load(d, rays.direction[0].data() + lane), y = hn::Load(d, rays.direction[1].data() + lane),
-                z = hn::Load(d, rays.direction[2].data() + lane), length = hn::Load(d, rays.length.data() + lane);
-        const V t_min = hn::Load(d, rays.t_min.data() + lane), t_last = hn::Load(d, rays.t.data() + lane);
-        const auto dot = [&](const glm::vec3& n) HWY_ATTR {
-            return hn::Add(hn::Add(hn::Mul(set(n.x), x), hn::Mul(set(n.y), y)), hn::Mul(set(n.z), z));
-        };
-        const V u = dot(p.side[0]), v = dot(p.side[1]), w = dot(p.side[2]);
-        const V least = hn::Min(hn::Min(u, v), w), most = hn::Max(hn::Max(u, v), w);
-        const V error = hn::Mul(set(side_error<float>), hn::Mul(set(p.edge * p.distance), length));
-        const auto is_bounded = hn::Ge(error, set(least_bound<float>));
-        const auto not_done = hn::Lt(t_min, t_last);
-        auto maybe = not_done;
-        if (exact_signs)
-            maybe = hn::AndNot(hn::And(is_bounded, hn::And(hn::Lt(least, hn::Neg(error)), hn::Gt(most, error))), maybe);
-        else
-            maybe = hn::And(maybe, hn::Or(hn::Ge(least, set(0.0f)), hn::Le(most, set(0.0f))));
-        if (hn::AllFalse(d, maybe)) continue;
-
-        const V slope = dot(p.normal), t = hn::Div(set(p.height), slope), t_size = hn::Abs(t);
-        const auto is_sloped =
-            p.has_volume ? hn::Gt(hn::Abs(slope), hn::Mul(set(least_slope), hn::Mul(set(p.span), length)))
-                         : hn::FirstN(d, 0);
-        auto is_placed = hn::And(is_sloped, hn::Ge(hn::Mul(t_size, length), set(least_distance * p.distance)));
-        const V t_error = hn::Mul(set(quotient_error), hn::Add(t_size, hn::Div(set(p.distance), length)));
-        const auto is_outside = hn::Or(hn::Lt(hn::Add(t, t_error), t_min), hn::Gt(hn::Sub(t, t_error), t_last));
-        if (any_hit)
-            is_placed = hn::Or(is_placed, hn::And(is_sloped, hn::And(hn::Gt(hn::Sub(t, t_error), t_min),
-                                                                     hn::Lt(hn::Add(t, t_error), t_last))));
-        const auto in_range = hn::And(hn::Gt(t, t_min), hn::Le(t, t_last));
-        maybe = hn::AndNot(hn::And(is_placed, hn::Not(in_range)), maybe);
-        maybe = hn::AndNot(hn::And(hn::AndNot(is_placed, is_sloped), is_outside), maybe);
-        if (hn::AllFalse(d, maybe)) continue;
-
-        const auto is_certain =
-            exact_signs ? hn::And(is_bounded, hn::Or(hn::Gt(least, error), hn::Lt(most, hn::Neg(error))))
-                        : (p.distance <= farthest_fast * p.edge ? is_sloped : hn::FirstN(d, 0));
-        const auto hit = hn::And(maybe, hn::And(is_placed, is_certain));
-        result.uncertain |= bits_of(d, hn::AndNot(hit, maybe)) << (lane - first);
-
-        const auto old_id = hn::Load(du, rays.id.data() + lane), new_id = hn::Set(du, id);
-        const auto wins_tie = hn::RebindMask(d, hn::And(hn::Lt(new_id, old_id), hn::Ne(old_id, hn::Set(du, no_primitive))));
-        const auto counts = hn::And(hit, hn::Or(hn::Lt(t, t_last), hn::And(hn::Eq(t, t_last), wins_tie)));
-        const std::uint32_t bits = bits_of(d, counts);
-        if (bits == 0) continue;
-        result.hits |= bits << (lane - first);
-        const V scale = hn::Div(set(1.0f), hn::Add(hn::Add(u, v), w));
-        hn::BlendedStore(t, counts, d, rays.t.data() + lane);
-        hn::BlendedStore(hn::Mul(v, scale), counts, d, rays.u.data() + lane);
-        hn::BlendedStore(hn::Mul(w, scale), counts, d, rays.v.data() + lane);
-        hn::BlendedStore(new_id, hn::RebindMask(du, counts), du, rays.id.data() + lane);
-    }
-    return result;
-}
-
-/// Whether any ray of the packets is in a box before it ends: what packets, which are wider than their rays, only may.
-/// lo, hi  corners in the root system
-/// wide    by how much the box is widened
-HWY_INLINE bool any_ray_meets(const BeamRays& rays, PacketMask packets, const glm::vec3& lo, const glm::vec3& hi,
-                                float wide)
-{
-    const PackLanes d;
-    for (; packets != 0; packets &= packets - 1) {
-        const int begin = __builtin_ctzll(packets) * packet_size;
-        for (int lane = begin; lane < begin + packet_size; lane += kernel_lanes) {
-            const auto end = hn::Load(d, rays.t.data() + lane);
-            auto enter = hn::Load(d, rays.t_min.data() + lane), leave = hn::MulAdd(end, hn::Set(d, t_slack), end);
-            for (int axis = 0; axis < 3; ++axis) {
-                const auto inverse = hn::Div(hn::Set(d, 1.0f), hn::Load(d, rays.direction[axis].data() + lane));
-                const auto a = hn::Mul(hn::Set(d, lo[axis] - wide - rays.apex[axis]), inverse),
-                           b = hn::Mul(hn::Set(d, hi[axis] + wide - rays.apex[axis]), inverse);
-                enter = hn::Max(enter, hn::Min(a, b));
-                leave = hn::Min(leave, hn::Max(a, b));
-            }
-            if (!hn::AllFalse(d, hn::Le(enter, leave))) return true;
-        }
-    }
-    return false;
-}
-
-/// The depth beyond which nothing can beat a packet's hits; minus infinity where all rays are done.
-HWY_INLINE float reach_of(const BeamRays& rays, const Beam& root, int packet)
-{
-    const PackLanes d;
-    const int axis = root.k;
-    auto reach = hn::Set(d, -std::numeric_limits<float>::infinity());
-    for (int lane = packet * packet_size; lane < (packet + 1) * packet_size; lane += kernel_lanes) {
-        const auto speed = hn::Abs(hn::Load(d, rays.direction[axis].data() + lane));
-        reach = hn::Max(reach, hn::Mul(speed, hn::Load(d, rays.t.data() + lane)));
-    }
-    const float farthest = hn::GetLane(hn::MaxOfLanes(d, reach));
-    return farthest < 0.0f ? farthest : farthest + farthest * t_slack;
 }
 
 }  // namespace HWY_NAMESPACE

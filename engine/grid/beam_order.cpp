@@ -67,7 +67,8 @@ Square around(const BeamPlaces& sorted, int begin, int end)
 
 /// Calls emit(begin, end) for runs of rays that fill the square around them.
 template <typename Emit>
-void for_each_cluster(const BeamPlaces& sorted, int begin, int end, int shift, float area, float least, const Emit& emit)
+void for_each_cluster(const BeamPlaces& sorted, int begin, int end, int shift, float area, float least,
+                      const Emit& emit)
 {
     constexpr float worth_cutting = 0.5f;
     if (end - begin <= packet_size || shift < 16) return emit(begin, end);

@@ -6,8 +6,8 @@
 #define FIRSTRAY_BEAM_RAYS_INL_H_
 #endif
 
-#include "engine/grid/beam_kernels-inl.h"
 #include "engine/grid/beam_order.h"
+#include "engine/grid/packet_kernels-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace firstray {
@@ -224,9 +224,8 @@ HWY_INLINE void store_hits(const BeamRays& rays, const std::int32_t* lanes, int 
         const auto id = hn::Load(du, rays.id.data() + at);
         const auto hit = hn::RebindMask(d, hn::Ne(id, hn::Set(du, no_primitive)));
         hn::Store(id, du, tile.primitive.data() + at);
-        const auto put = [&](const BeamRays::Lane& from, RayTile<float>::Lane& to) HWY_ATTR {
-            hn::BlendedStore(hn::Load(d, from.data() + at), hit, d, to.data() + at);
-        };
+        const auto put = [&](const BeamRays::Lane& from, RayTile<float>::Lane& to)
+                             HWY_ATTR { hn::BlendedStore(hn::Load(d, from.data() + at), hit, d, to.data() + at); };
         put(rays.t, tile.t_max);
         put(rays.u, tile.u);
         put(rays.v, tile.v);

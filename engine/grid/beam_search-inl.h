@@ -37,7 +37,8 @@ struct BeamQuest {
         bool is_met = false;
         for (; packets != 0; packets &= packets - 1) {
             const int packet = __builtin_ctzll(packets);
-            const PacketHits found = test_packet<query == Query::any>(seen, id, precision != Precision::fast, rays, packet * packet_size);
+            const PacketHits found =
+                test_packet<query == Query::any>(seen, id, precision != Precision::fast, rays, packet * packet_size);
             std::uint32_t hits = found.hits;
             for (std::uint32_t rest = found.uncertain; rest != 0; rest &= rest - 1) {
                 const int lane = __builtin_ctz(rest);
@@ -64,7 +65,8 @@ struct BeamQuest {
                 const auto ray = static_cast<std::size_t>(packet * packet_size + lane);
                 if (!(rays.t_min[ray] < rays.t[ray])) continue;
                 const SearchRay<float> single = search_ray(ray);
-                Quest<query, float, NoCost> quest{single, mask, {}, {rays.t[ray], rays.u[ray], rays.v[ray], rays.id[ray]}};
+                Quest<query, float, NoCost> quest{
+                    single, mask, {}, {rays.t[ray], rays.u[ray], rays.v[ray], rays.id[ray]}};
                 search(quest);
                 if (quest.hit.id == rays.id[ray] && quest.hit.t == rays.t[ray]) continue;
                 put(ray, quest.hit.t, quest.hit.u, quest.hit.v, quest.hit.id);
@@ -162,8 +164,8 @@ struct BeamSearch {
     HWY_NOINLINE void pack(const TrianglePack& pack, PacketMask packets)
     {
         BeamTriangles triangles;
-        for (std::uint32_t met = make_beam_triangles(pack, beam, bounds_of(beam, packets), wide, structure->blur, loose,
-                                                     triangles);
+        for (std::uint32_t met =
+                 make_beam_triangles(pack, beam, bounds_of(beam, packets), wide, structure->blur, loose, triangles);
              met != 0; met &= met - 1) {
             const int lane = __builtin_ctz(met);
             const std::uint32_t marked = pack.id[lane];
@@ -209,7 +211,10 @@ class PackOfPieces {
 public:
     bool is_empty() const { return count_ == 0; }
     bool is_full() const { return count_ == pack_size; }
-    void add(const RootTriangle<float>& triangle, std::uint32_t id_and_bit) { pack_.set(count_++, triangle, id_and_bit); }
+    void add(const RootTriangle<float>& triangle, std::uint32_t id_and_bit)
+    {
+        pack_.set(count_++, triangle, id_and_bit);
+    }
     const TrianglePack& take()
     {
         while (count_ < pack_size) pack_.clear(count_++);
@@ -230,7 +235,7 @@ HWY_INLINE void try_occluders(Quest& quest)
     static const GridStructure none_at_all;
     const PackedTriangles primitives;
     BeamSearch<Quest, PackedTriangles> search{quest, quest.root, primitives, &none_at_all,
-                                         quest.precision == Precision::fast ? 1.0f : 0.0f};
+                                              quest.precision == Precision::fast ? 1.0f : 0.0f};
     search.wide = std::numeric_limits<float>::infinity();  // no depth is known here to be beyond anything
     if (quest.occluders.has_any()) search.pack(TrianglePack(pack), quest.root.packets);
 }

@@ -77,13 +77,14 @@ HWY_INLINE CellSpan cells_between(float lo, float hi, float start, float cell, i
 /// asked    the packets that walk
 /// wide     by how much cells are widened: what the beam's and the planes' rounding comes to
 /// resolve  see traverse()
-/// search   `search.visit(voxel, packets, resolve)` does what is to be done in a voxel for the packets that pass through
+/// search   `search.visit(voxel, packets, resolve)` does what is to be done in a voxel for the packets that pass
+/// through
 ///          it; it may shorten the beam's reach
 /// source   slices: I. Wald, T. Ize, A. Kensler, A. Knoll, S. Parker, "Ray Tracing Animated Scenes using Coherent Grid
 ///          Traversal", 2006
 template <class Resolver, class Search>
-HWY_NOINLINE void walk_slices(const Grid& grid, const Beam& beam, PacketMask asked, float wide,
-                              const Resolver& resolve, Search& search)
+HWY_NOINLINE void walk_slices(const Grid& grid, const Beam& beam, PacketMask asked, float wide, const Resolver& resolve,
+                              Search& search)
 {
     const int strides[3] = {1, grid.dims.x, grid.dims.x * grid.dims.y};
     const glm::vec3 hi = grid.hi();
@@ -102,9 +103,12 @@ HWY_NOINLINE void walk_slices(const Grid& grid, const Beam& beam, PacketMask ask
         cut(beam, asked, near, far, slice);
         asked &= slice.packets;  // reach never grows
         if (asked == 0) return;
-        const CellSpan across_u = cells_between(slice.lo[0] - wide, slice.hi[0] + wide, start_u, cell_u, grid.dims[beam.u]),
-                       across_v = cells_between(slice.lo[1] - wide, slice.hi[1] + wide, start_v, cell_v, grid.dims[beam.v]);
-        const std::int32_t layer = static_cast<std::int32_t>(grid.first_cell) + strides[beam.k] * (up ? s : slices - 1 - s);
+        const CellSpan across_u =
+                           cells_between(slice.lo[0] - wide, slice.hi[0] + wide, start_u, cell_u, grid.dims[beam.u]),
+                       across_v =
+                           cells_between(slice.lo[1] - wide, slice.hi[1] + wide, start_v, cell_v, grid.dims[beam.v]);
+        const std::int32_t layer =
+            static_cast<std::int32_t>(grid.first_cell) + strides[beam.k] * (up ? s : slices - 1 - s);
         for (int v = across_v.first; v <= across_v.last; ++v) {
             const float cell_lo_v = start_v + static_cast<float>(v) * cell_v;
             PacketMask row = 0;

@@ -1,0 +1,178 @@
+// Wide kernels of packets: their sixteen rays against a triangle or a box. Included once per instruction set; what they
+// return does not depend on it.
+#if defined(FIRSTRAY_PACKET_KERNELS_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef FIRSTRAY_PACKET_KERNELS_INL_H_
+#undef FIRSTRAY_PACKET_KERNELS_INL_H_
+#else
+#define FIRSTRAY_PACKET_KERNELS_INL_H_
+#endif
+
+#include "engine/grid/beam_kernels-inl.h"
+#include "engine/primitive/intersect.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace firstray {
+namespace HWY_NAMESPACE {
+
+/// One triangle as BeamTriangles has sixteen.
+struct ApexTriangle {
+    glm::vec3 side[3];  ///< its dot product with a direction is the side u, v, w
+    glm::vec3 normal;   ///< Ng
+    float height, span, distance, edge;
+    bool has_volume;  ///< float's t can be trusted, as far as this goes
+
+    void set_volume()
+    {
+        const float volume = span * distance;
+        has_volume = volume > least_bound<float> && volume < most_volume;
+    }
+};
+
+HWY_INLINE ApexTriangle make_apex_triangle(const RootTriangle<float>& t, const glm::vec3& apex)
+{
+    const glm::vec3 a0 = t.v[0] - apex, a1 = t.v[1] - apex, a2 = t.v[2] - apex;
+    const glm::vec3 e1 = t.v[0] - t.v[2], e2 = t.v[1] - t.v[0];
+    ApexTriangle p;
+    p.side[0] = cross_as_written<float>(t.v[2] - t.v[1], a1 + a2);
+    p.side[1] = cross_as_written<float>(e1, a2 + a0);
+    p.side[2] = cross_as_written<float>(e2, a0 + a1);
+    p.normal = cross_as_written<float>(e1, e2);
+    p.height = dot_as_written<float>(p.normal, a0);
+    p.span = largest_component<float>(e1) * largest_component<float>(e2);
+    p.distance = largest_component<float>(a0) + t.edge;
+    p.edge = t.edge;
+    p.set_volume();
+    return p;
+}
+
+HWY_INLINE ApexTriangle take_apex_triangle(const BeamTriangles& triangles, const TrianglePack& pack, int lane)
+{
+    ApexTriangle p;
+    for (int axis = 0; axis < 3; ++axis) {
+        for (int e = 0; e < 3; ++e) p.side[e][axis] = triangles.side[e][axis][lane];
+        p.normal[axis] = triangles.normal[axis][lane];
+    }
+    p.height = triangles.height[lane];
+    p.span = triangles.span[lane];
+    p.distance = triangles.distance[lane];
+    p.edge = pack.edge[lane];
+    p.set_volume();
+    return p;
+}
+
+/// What sixteen rays found.
+struct PacketHits {
+    std::uint32_t hits = 0;       ///< rays whose best hit this is now: written to the beam's rays
+    std::uint32_t uncertain = 0;  ///< rays that only the test of single rays can decide
+};
+
+/// intersect() of triangle.h for the sixteen rays from `first` on, and taking the hit where it counts.
+/// any_hit  that there is a hit is all that counts: t need not be exact where it is far enough from both ends
+template <bool any_hit>
+HWY_INLINE PacketHits test_packet(const ApexTriangle& p, PrimitiveId id, bool exact_signs, BeamRays& rays, int first)
+{
+    const PackLanes d;
+    const hn::RebindToUnsigned<PackLanes> du;
+    using V = hn::Vec<PackLanes>;
+    const auto set = [&](float x) HWY_ATTR { return hn::Set(d, x); };
+    PacketHits result;
+    for (int lane = first; lane < first + packet_size; lane += kernel_lanes) {
+        const V x = hn::Load(d, rays.direction[0].data() + lane), y = hn::Load(d, rays.direction[1].data() + lane),
+                z = hn::Load(d, rays.direction[2].data() + lane), length = hn::Load(d, rays.length.data() + lane);
+        const V t_min = hn::Load(d, rays.t_min.data() + lane), t_last = hn::Load(d, rays.t.data() + lane);
+        const auto dot = [&](const glm::vec3& n) HWY_ATTR {
+            return hn::Add(hn::Add(hn::Mul(set(n.x), x), hn::Mul(set(n.y), y)), hn::Mul(set(n.z), z));
+        };
+        const V u = dot(p.side[0]), v = dot(p.side[1]), w = dot(p.side[2]);
+        const V least = hn::Min(hn::Min(u, v), w), most = hn::Max(hn::Max(u, v), w);
+        const V error = hn::Mul(set(side_error<float>), hn::Mul(set(p.edge * p.distance), length));
+        const auto is_bounded = hn::Ge(error, set(least_bound<float>));
+        const auto not_done = hn::Lt(t_min, t_last);
+        auto maybe = not_done;
+        if (exact_signs)
+            maybe = hn::AndNot(hn::And(is_bounded, hn::And(hn::Lt(least, hn::Neg(error)), hn::Gt(most, error))), maybe);
+        else
+            maybe = hn::And(maybe, hn::Or(hn::Ge(least, set(0.0f)), hn::Le(most, set(0.0f))));
+        if (hn::AllFalse(d, maybe)) continue;
+
+        const V slope = dot(p.normal), t = hn::Div(set(p.height), slope), t_size = hn::Abs(t);
+        const auto is_sloped = p.has_volume
+                                   ? hn::Gt(hn::Abs(slope), hn::Mul(set(least_slope), hn::Mul(set(p.span), length)))
+                                   : hn::FirstN(d, 0);
+        auto is_placed = hn::And(is_sloped, hn::Ge(hn::Mul(t_size, length), set(least_distance * p.distance)));
+        const V t_error = hn::Mul(set(quotient_error), hn::Add(t_size, hn::Div(set(p.distance), length)));
+        const auto is_outside = hn::Or(hn::Lt(hn::Add(t, t_error), t_min), hn::Gt(hn::Sub(t, t_error), t_last));
+        if (any_hit)
+            is_placed = hn::Or(is_placed, hn::And(is_sloped, hn::And(hn::Gt(hn::Sub(t, t_error), t_min),
+                                                                     hn::Lt(hn::Add(t, t_error), t_last))));
+        const auto in_range = hn::And(hn::Gt(t, t_min), hn::Le(t, t_last));
+        maybe = hn::AndNot(hn::And(is_placed, hn::Not(in_range)), maybe);
+        maybe = hn::AndNot(hn::And(hn::AndNot(is_placed, is_sloped), is_outside), maybe);
+        if (hn::AllFalse(d, maybe)) continue;
+
+        const auto is_certain = exact_signs
+                                    ? hn::And(is_bounded, hn::Or(hn::Gt(least, error), hn::Lt(most, hn::Neg(error))))
+                                    : (p.distance <= farthest_fast * p.edge ? is_sloped : hn::FirstN(d, 0));
+        const auto hit = hn::And(maybe, hn::And(is_placed, is_certain));
+        result.uncertain |= bits_of(d, hn::AndNot(hit, maybe)) << (lane - first);
+
+        const auto old_id = hn::Load(du, rays.id.data() + lane), new_id = hn::Set(du, id);
+        const auto wins_tie =
+            hn::RebindMask(d, hn::And(hn::Lt(new_id, old_id), hn::Ne(old_id, hn::Set(du, no_primitive))));
+        const auto counts = hn::And(hit, hn::Or(hn::Lt(t, t_last), hn::And(hn::Eq(t, t_last), wins_tie)));
+        const std::uint32_t bits = bits_of(d, counts);
+        if (bits == 0) continue;
+        result.hits |= bits << (lane - first);
+        const V scale = hn::Div(set(1.0f), hn::Add(hn::Add(u, v), w));
+        hn::BlendedStore(t, counts, d, rays.t.data() + lane);
+        hn::BlendedStore(hn::Mul(v, scale), counts, d, rays.u.data() + lane);
+        hn::BlendedStore(hn::Mul(w, scale), counts, d, rays.v.data() + lane);
+        hn::BlendedStore(new_id, hn::RebindMask(du, counts), du, rays.id.data() + lane);
+    }
+    return result;
+}
+
+/// Whether any ray of the packets is in a box before it ends: what packets, which are wider than their rays, only may.
+/// lo, hi  corners in the root system
+/// wide    by how much the box is widened
+HWY_INLINE bool any_ray_meets(const BeamRays& rays, PacketMask packets, const glm::vec3& lo, const glm::vec3& hi,
+                              float wide)
+{
+    const PackLanes d;
+    for (; packets != 0; packets &= packets - 1) {
+        const int begin = __builtin_ctzll(packets) * packet_size;
+        for (int lane = begin; lane < begin + packet_size; lane += kernel_lanes) {
+            const auto end = hn::Load(d, rays.t.data() + lane);
+            auto enter = hn::Load(d, rays.t_min.data() + lane), leave = hn::MulAdd(end, hn::Set(d, t_slack), end);
+            for (int axis = 0; axis < 3; ++axis) {
+                const auto inverse = hn::Div(hn::Set(d, 1.0f), hn::Load(d, rays.direction[axis].data() + lane));
+                const auto a = hn::Mul(hn::Set(d, lo[axis] - wide - rays.apex[axis]), inverse),
+                           b = hn::Mul(hn::Set(d, hi[axis] + wide - rays.apex[axis]), inverse);
+                enter = hn::Max(enter, hn::Min(a, b));
+                leave = hn::Min(leave, hn::Max(a, b));
+            }
+            if (!hn::AllFalse(d, hn::Le(enter, leave))) return true;
+        }
+    }
+    return false;
+}
+
+/// The depth beyond which nothing can beat a packet's hits; minus infinity where all rays are done.
+HWY_INLINE float reach_of(const BeamRays& rays, const Beam& root, int packet)
+{
+    const PackLanes d;
+    const int axis = root.k;
+    auto reach = hn::Set(d, -std::numeric_limits<float>::infinity());
+    for (int lane = packet * packet_size; lane < (packet + 1) * packet_size; lane += kernel_lanes) {
+        const auto speed = hn::Abs(hn::Load(d, rays.direction[axis].data() + lane));
+        reach = hn::Max(reach, hn::Mul(speed, hn::Load(d, rays.t.data() + lane)));
+    }
+    const float farthest = hn::GetLane(hn::MaxOfLanes(d, reach));
+    return farthest < 0.0f ? farthest : farthest + farthest * t_slack;
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace firstray
+HWY_AFTER_NAMESPACE();
+
+#endif  // include guard per instruction set
