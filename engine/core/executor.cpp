@@ -6,9 +6,48 @@
 #include <oneapi/tbb/task_arena.h>
 
 #include <algorithm>
+#include <atomic>
+#include <exception>
+#include <mutex>
 #include <optional>
+#include <thread>
+#include <vector>
+
+// ThreadSanitizer does not see how TBB, which is not built with it, hands work over: it would report every loop.
+#if defined(__SANITIZE_THREAD__)
+#define FIRSTRAY_PLAIN_THREADS 1
+#elif defined(__has_feature)
+#if __has_feature(thread_sanitizer)
+#define FIRSTRAY_PLAIN_THREADS 1
+#endif
+#endif
 
 namespace firstray {
+namespace {
+
+/// A loop on threads that are made for it.
+[[maybe_unused]] void loop_on_threads(int threads, std::size_t count, const std::function<void(std::size_t)>& body)
+{
+    std::atomic<std::size_t> next{0};
+    std::mutex mutex;
+    std::exception_ptr fault;
+    const auto work = [&] {
+        try {
+            for (std::size_t i; (i = next.fetch_add(1)) < count;) body(i);
+        } catch (...) {
+            next = count;
+            const std::lock_guard lock(mutex);
+            if (!fault) fault = std::current_exception();
+        }
+    };
+    std::vector<std::thread> crew;
+    for (int i = 1; i < threads; ++i) crew.emplace_back(work);
+    work();
+    for (std::thread& thread : crew) thread.join();
+    if (fault) std::rethrow_exception(fault);
+}
+
+}  // namespace
 
 struct Executor::Arena {
     explicit Arena(int threads) : arena(threads)
@@ -37,6 +76,9 @@ void Executor::for_each(std::size_t count, const std::function<void(std::size_t)
         for (std::size_t i = 0; i < count; ++i) body(i);
         return;
     }
+#ifdef FIRSTRAY_PLAIN_THREADS
+    return loop_on_threads(threads_, count, body);
+#endif
     arena_->arena.execute(
         [&] { oneapi::tbb::parallel_for(std::size_t{0}, count, body, oneapi::tbb::simple_partitioner{}); });
 }
