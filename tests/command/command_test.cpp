@@ -73,7 +73,8 @@ TEST_CASE("a command line that cannot be taken is told in one line and exits wit
         {"trace a.aff --frame 0", "needs --rays"},
     };
     for (const auto& [line, message] : cases) {
-        CAPTURE(line);
+        const auto line_now = line;  // clang 14 captures no structured bindings
+        CAPTURE(line_now);
         const Outcome outcome = call_line(line);
         CAPTURE(outcome.err);
         CHECK(outcome.code == 2);

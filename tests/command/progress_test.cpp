@@ -19,8 +19,10 @@ TEST_CASE("progress is one rewritten line on a terminal, lines elsewhere, nothin
     };
     for (const auto& [mode, terminal, lines, returns] : {Case{"auto", true, 0, 3}, Case{"auto", false, 2, 0},
                                                          Case{"always", false, 2, 0}, Case{"never", true, 0, 0}}) {
-        CAPTURE(mode);
-        CAPTURE(terminal);
+        const auto mode_now = mode;  // clang 14 captures no structured bindings
+        CAPTURE(mode_now);
+        const auto terminal_now = terminal;  // clang 14 captures no structured bindings
+        CAPTURE(terminal_now);
         std::ostringstream err;
         {
             Progress progress(err, progress_style(mode, terminal), 2);

@@ -38,7 +38,8 @@ TEST_CASE("subgrids are counted where they are, the other boxes are told one by 
                                                      {"scenery", {{"count", 1}, {"deepest_level", 1}}}};
     std::size_t i = 0;
     for (const auto& [name, subgrids] : expected) {
-        CAPTURE(name);
+        const auto name_now = name;  // clang 14 captures no structured bindings
+        CAPTURE(name_now);
         CHECK(told[i]["name"] == name);
         CHECK(told[i++]["subgrids"] == subgrids);
     }

@@ -111,7 +111,8 @@ TEST_CASE("a strategy that fails is a row with its reason, and the others go on"
         {"unmakable", "cannot be made"}, {"tiring", "the second update is too much"}, {"blind", "cannot search"}};
     const std::string table = summary_table(results);
     for (const auto& [name, reason] : faults) {
-        CAPTURE(name);
+        const auto name_now = name;  // clang 14 captures no structured bindings
+        CAPTURE(name_now);
         CHECK(row(results, name)["status"] == "failed");
         CHECK(row(results, name)["reason"] == reason);
         CHECK(row(results, name)["times"].is_null());

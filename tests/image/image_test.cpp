@@ -256,7 +256,8 @@ TEST_CASE("what is no picture is a file fault that names the file and the reason
                                        {"short.ppm", ""},
                                        {"noise.ppm", ""},
                                        {"empty.ppm", ""}}) {
-        CAPTURE(name);
+        const auto name_now = name;  // clang 14 captures no structured bindings
+        CAPTURE(name_now);
         const std::string start = "cannot read picture " + (folder.path() / name).string() + ": " + reason;
         CHECK_THROWS_WITH_AS(read_texture(folder.path() / name), doctest::Contains(start.c_str()), FileError);
     }

@@ -28,7 +28,8 @@ TEST_CASE("a contestant that there is not is refused with what there is")
                                                          {"lazy+obb-top=list", "strategy lazy has no choice 'obb-top'"},
                                                          {"obb+", "strategy obb has no choice ''"}};
     for (const auto& [text, message] : cases) {
-        CAPTURE(text);
+        const auto text_now = text;  // clang 14 captures no structured bindings
+        CAPTURE(text_now);
         CHECK_THROWS_WITH_AS(parse_contestant(text), doctest::Contains(message), Error);
     }
 }

@@ -95,7 +95,8 @@ TEST_CASE("oriented boxes give the list's hits bit for bit in supergrids, withou
     };
     int hits = 0;
     for (const auto& [name, shape] : shapes) {
-        CAPTURE(name);
+        const auto name_now = name;  // clang 14 captures no structured bindings
+        CAPTURE(name_now);
         check_scene(moving_scene(200, shape), 0, 200, hits);
     }
     CHECK(hits > 50000);

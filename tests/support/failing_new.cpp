@@ -17,7 +17,7 @@ bool fails_now()
     return true;
 }
 
-void* allocate(std::size_t size, std::size_t boundary)
+[[maybe_unused]] void* allocate(std::size_t size, std::size_t boundary)
 {
     if (fails_now()) throw std::bad_alloc();
     const std::size_t whole = (size + boundary - 1) / boundary * boundary;  // as aligned_alloc wants it
@@ -27,6 +27,7 @@ void* allocate(std::size_t size, std::size_t boundary)
 
 }  // namespace
 
+#ifndef FIRSTRAY_NEW_CANNOT_FAIL
 void* operator new(std::size_t size)
 {
     return allocate(size, alignof(std::max_align_t));
@@ -51,6 +52,8 @@ void operator delete(void* memory, std::size_t, std::align_val_t) noexcept
 {
     std::free(memory);
 }
+
+#endif
 
 namespace firstray::test {
 
