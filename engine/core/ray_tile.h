@@ -57,7 +57,9 @@ struct RayTile {
     alignas(64) Lane u;  ///< triangle: weight of vertex 1; quadrics: 0
     alignas(64) Lane v;  ///< triangle: weight of vertex 2; quadrics: 0
 
-    RayCost* cost = nullptr;  ///< `count` entries that the search adds to, or null: counting then costs nothing
+    /// `count` entries that the search adds to, or null: counting then costs nothing. Rays whose cost is asked for go one
+    /// by one, since a beam's cannot be told apart.
+    RayCost* cost = nullptr;
 
     Vec origin_of(int i) const { return common_apex ? apex : get(origin, i); }
     Vec direction_of(int i) const { return get(direction, i); }

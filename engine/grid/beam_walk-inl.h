@@ -77,8 +77,7 @@ HWY_INLINE CellSpan cells_between(float lo, float hi, float start, float cell, i
 /// asked    the packets that walk
 /// wide     by how much cells are widened: what the beam's and the planes' rounding comes to
 /// resolve  see traverse()
-/// search   `search.visit(voxel, packets, resolve)` does what is to be done in a voxel for the packets that pass
-/// through
+/// search   `search.visit(voxel, packets, resolve)` does what is to be done in a voxel for the packets that go through
 ///          it; it may shorten the beam's reach
 /// source   slices: I. Wald, T. Ize, A. Kensler, A. Knoll, S. Parker, "Ray Tracing Animated Scenes using Coherent Grid
 ///          Traversal", 2006
