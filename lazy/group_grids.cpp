@@ -57,6 +57,7 @@ std::unique_ptr<LazyGrid> GroupGrids<Real>::make(std::uint32_t group) const
         made = std::make_unique<LazyGrid>(make_entries(geometry_, primitives, nullptr), shape_of(primitives.size()),
                                           ledger_, nullptr, choice_in(group));
     } catch (const std::bad_alloc&) {
+        ledger_.note_refused();
         ledger_.give_back(guess);
         return nullptr;
     }

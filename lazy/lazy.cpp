@@ -180,7 +180,7 @@ void LazyStrategy<Real>::place_primitives(const Pose& pose)
         there_.push_back(everything_that_moves);
         moving_ = primitives.size();
         regridded_ += moving_;
-        dropped_ += groups_.gather(primitives, room_of_movers(scene_, bounds_), options_.executor);
+        dropped_ += groups_.gather(primitives, scenery_.movers(), options_.executor);
         const GridStructure& top = groups_.made(everything_that_moves)->top();
         const DAabb box{top.grids[0].lo, top.grids[0].hi()};
         const double largest = std::max(static_cast<double>(top.largest), scenery_.largest());

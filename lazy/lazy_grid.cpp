@@ -64,6 +64,7 @@ std::unique_ptr<GridStructure> LazyGrid::build(std::uint32_t cell) const
     try {
         built = std::make_unique<GridStructure>(build_voxel(top_, cell, entries_, options_));
     } catch (const std::bad_alloc&) {
+        ledger_.note_refused();
         ledger_.give_back(guess);  // the list is searched instead: slower, never a hole
         return nullptr;
     }

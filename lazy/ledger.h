@@ -17,9 +17,11 @@ public:
         const std::uint64_t before = bytes_.fetch_add(bytes, std::memory_order_relaxed);
         if (limit_ == 0 || before + bytes <= limit_) return true;
         give_back(bytes);
-        refused_.fetch_add(1, std::memory_order_relaxed);
+        note_refused();
         return false;
     }
+    /// There is no memory for a build, whatever the limit.
+    void note_refused() { refused_.fetch_add(1, std::memory_order_relaxed); }
     /// What was charged turned out to be more, or less.
     void correct(std::uint64_t charged, std::uint64_t held)
     {
@@ -38,7 +40,7 @@ public:
 
     std::uint64_t bytes() const { return bytes_; }
     std::uint64_t built() const { return built_; }      ///< voxels and groups, in this frame
-    std::uint64_t refused() const { return refused_; }  ///< builds that the limit forbade, in this frame
+    std::uint64_t refused() const { return refused_; }  ///< builds that there was no room for, in this frame
     double milliseconds() const { return 1e-6 * static_cast<double>(nanoseconds_.load()); }  ///< summed over threads
 
 private:

@@ -12,10 +12,7 @@ namespace {
 /// A little more than the largest coordinate, for what is rounded to float.
 double largest_of(const DAabb& scenery, const Aabb& movers)
 {
-    double largest = 0.0;
-    if (!scenery.empty()) largest = largest_coordinate(scenery);
-    if (!movers.empty()) largest = std::max(largest, static_cast<double>(largest_coordinate(movers)));
-    return largest * (1.0 + 1e-6);
+    return std::max(largest_coordinate(scenery), static_cast<double>(largest_coordinate(movers))) * (1.0 + 1e-6);
 }
 
 }  // namespace
@@ -88,6 +85,7 @@ std::unique_ptr<typename Scenery<Real>::Made> Scenery<Real>::make_for_rays() con
         ledger_.note_built(static_cast<std::uint64_t>((Clock::now() - start).count()));
         return made;
     } catch (const std::bad_alloc&) {
+        ledger_.note_refused();
         return nullptr;  // the flat list is searched instead
     }
 }

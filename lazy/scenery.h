@@ -49,6 +49,8 @@ public:
     const GridStructure& flat_list() const { return flat_list_.structure; }
     /// What the chooser compares, by what is known now.
     Alternatives alternatives() const;
+    /// Room for what moves: room_of_movers().
+    const Aabb& movers() const { return movers_; }
     /// No coordinate of the grid is larger, whether it is made or will be.
     double largest() const { return largest_; }
     std::uint64_t bytes() const;
@@ -59,7 +61,7 @@ private:
     std::unique_ptr<Made> make_for_rays() const;
 
     const RootGeometry<Real>& geometry_;
-    Aabb movers_;  ///< room for what moves among the scenery
+    Aabb movers_;
     double largest_;
     GridOptions options_;
     Ledger& ledger_;

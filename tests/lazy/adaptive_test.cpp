@@ -4,6 +4,7 @@
 
 #include "engine/strategy/list.h"
 #include "lazy/lazy.h"
+#include "tests/lazy/easy_costs.h"
 #include "tests/lazy/lazy_world.h"
 #include "tests/support/compare_hits.h"
 #include "tests/support/crew.h"
@@ -15,17 +16,6 @@ using lazy::ListOrGrid;
 using lazy::Rule;
 
 namespace {
-
-/// Round numbers: of ten triangles a list takes 10 ns a ray, a grid 2 and 80 to be built, so that the 11th ray builds.
-constexpr lazy::Costs easy = {.test = 1,
-                              .test_alone = 100,
-                              .pack = 1,
-                              .entry = 1,
-                              .packing = 3,
-                              .carrying = 1,
-                              .listing = 2,
-                              .building = 2,
-                              .making = 20};
 
 /// Ten triangles that rays from below miss.
 Scene ten_triangles()

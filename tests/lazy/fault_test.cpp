@@ -50,6 +50,7 @@ TEST_CASE("lazy: whichever allocation fails while rays fly, they find what they 
                 has_failed = failing.has_failed();
             }
             if (is_whole) CHECK(differing(*expected, *found) == 0);
+            if (is_whole && has_failed) CHECK(lazy->report().refused_builds == 1);  // it is counted
             lazy->closest(*again);
             CHECK(differing(*expected, *again) == 0);
             thrown += !is_whole;

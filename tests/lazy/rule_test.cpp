@@ -4,23 +4,15 @@
 
 #include <stdexcept>
 
+#include "tests/lazy/easy_costs.h"
 #include "tests/support/test_rays.h"
 
 using namespace firstray;
 using namespace firstray::lazy;
+using firstray::test::easy;
 using firstray::test::Random;
 
 namespace {
-
-constexpr Costs easy = {.test = 1,
-                        .test_alone = 100,
-                        .pack = 1,
-                        .entry = 1,
-                        .packing = 3,
-                        .carrying = 1,
-                        .listing = 2,
-                        .building = 2,
-                        .making = 20};
 
 /// Sends rays into a place as a chooser without forecast does; returns what that took.
 struct Visitor {
