@@ -257,7 +257,7 @@ struct RootPrimitives {
     TriangleHit<Real> triangle_of(const GridEntries& entries, std::uint32_t entry, PrimitiveId id, Real t_last) const
     {
         if constexpr (std::is_same_v<Real, float>)
-            return intersect_precisely(entries.triangles[entry], ray, precision, t_last);
+            return intersect_precisely(entries.triangle(entry), ray, precision, t_last);
         else
             return intersect_precisely(geometry.triangle(id), ray, precision, t_last);
     }
