@@ -10,7 +10,7 @@ namespace {
 constexpr std::size_t line = 64, huge_page = std::size_t{1} << 21;
 
 /// Less than this many bytes fill too few huge pages.
-constexpr std::size_t large = 4 * huge_page;
+constexpr std::size_t large = 2 * huge_page;
 
 std::align_val_t boundary(std::size_t bytes)
 {
