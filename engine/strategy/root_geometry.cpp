@@ -1,5 +1,6 @@
 #include "engine/strategy/root_geometry.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 
@@ -23,7 +24,6 @@ template <typename Real>
 RootGeometry<Real>::RootGeometry(const Scene& scene)
     : scene_(scene),
       placed_(scene.quadrics.size()),
-      corners_(scene.primitive_count()),
       transmits_(scene.primitive_count()),
       carried_(scene.groups.size()),
       stood_(scene.groups.size()),
@@ -34,14 +34,16 @@ RootGeometry<Real>::RootGeometry(const Scene& scene)
 {
     vertices_.reserve(scene.positions.size() + 1);
     vertices_.resize(scene.positions.size());
+    corners_.resize(scene.primitive_count());
     for (const Part& part : scene.parts) {
         const Group& group = scene.groups[part.group];
-        for (PrimitiveId id = part.first; id < part.first + part.count; ++id) {
-            const std::uint32_t index = id - group.first;
-            transmits_[id] = scene.materials[part.material].transmits();
-            corners_[id] = index < group.triangles ? scene.triangles[index + group.first_triangle].vertex
-                                                   : glm::uvec3(index - group.triangles + group.first_quadric);
-        }
+        const PrimitiveId end = part.first + part.count,
+                          quadrics = std::clamp(group.first + group.triangles, part.first, end);
+        std::fill(transmits_.begin() + part.first, transmits_.begin() + end, scene.materials[part.material].transmits());
+        for (PrimitiveId id = part.first; id < quadrics; ++id)
+            corners_[id] = scene.triangles[id - group.first + group.first_triangle].vertex;
+        for (PrimitiveId id = quadrics; id < end; ++id)
+            corners_[id] = glm::uvec3(id - group.first - group.triangles + group.first_quadric);
     }
 }
 

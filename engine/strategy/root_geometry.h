@@ -95,7 +95,7 @@ private:
     const Pose* pose_ = nullptr;               ///< for groups that are carried when touched
     mutable RawVector<Vec> vertices_;          ///< by index in Scene::positions
     mutable std::vector<RootQuadric> placed_;  ///< by index in Scene::quadrics
-    std::vector<glm::uvec3> corners_;  ///< by PrimitiveId: of a triangle, into vertices_; of a quadric, x: into placed_
+    RawVector<glm::uvec3> corners_;  ///< by PrimitiveId: of a triangle, into vertices_; of a quadric, x: into placed_
     std::vector<std::uint8_t> transmits_;                ///< by PrimitiveId
     mutable std::vector<std::atomic<Carried>> carried_;  ///< by group
     std::vector<Transform> stood_;                       ///< by group: root_from_node at the last update
