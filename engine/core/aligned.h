@@ -4,7 +4,7 @@
 #include <new>
 #include <vector>
 
-namespace firstray {
+namespace firstray::inline v0 {
 
 /// Allocates on boundaries of cache lines and does not write to what it hands out: a vector of plain data that is
 /// filled by many threads is then touched once.
@@ -38,4 +38,4 @@ struct CacheLineAllocator {
 template <typename T>
 using RawVector = std::vector<T, CacheLineAllocator<T>>;
 
-}  // namespace firstray
+}  // namespace firstray::inline v0

@@ -5,7 +5,7 @@
 
 #include "engine/primitive/triangle_box.h"
 
-namespace firstray {
+namespace firstray::inline v0 {
 namespace {
 
 struct Reference {
@@ -130,4 +130,4 @@ CellLists bin(const Grid& grid, const GridEntries& entries, std::span<const std:
     return lists;
 }
 
-}  // namespace firstray
+}  // namespace firstray::inline v0

@@ -9,7 +9,7 @@
 #include "engine/grid/entries.h"
 #include "engine/grid/grid.h"
 
-namespace firstray {
+namespace firstray::inline v0 {
 
 /// A list of entries for each cell, in one array: cell c's are entries[first[c]] to entries[first[c + 1]], ascending.
 struct CellLists {
@@ -49,4 +49,4 @@ CellLists bin(const Grid& grid, const GridEntries& entries, std::span<const std:
 /// surface.
 std::uint64_t estimate_references(std::span<const CellRange> ranges);
 
-}  // namespace firstray
+}  // namespace firstray::inline v0

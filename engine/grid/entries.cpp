@@ -4,7 +4,7 @@
 
 #include "engine/primitive/triangle_pack.h"
 
-namespace firstray {
+namespace firstray::inline v0 {
 namespace {
 
 RootTriangle<float> rounded(const RootTriangle<float>& t)
@@ -72,4 +72,4 @@ void add_quadric(GridEntries& entries, const RootQuadric& quadric)
 template GridEntries make_entries(const RootGeometry<float>&, const PrimitiveList&, const Executor*);
 template GridEntries make_entries(const RootGeometry<double>&, const PrimitiveList&, const Executor*);
 
-}  // namespace firstray
+}  // namespace firstray::inline v0

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace firstray {
+namespace firstray::inline v0 {
 namespace {
 
 /// Places on a Morton curve through a voxel, `bits` an axis.
@@ -142,4 +142,4 @@ void fill_list(const VoxelList& list, const ListToFill& to_fill, const GridEntri
         structure.quadrics[list.first_quadric + q] = entries.ids[to_fill.entries[triangles + q]];
 }
 
-}  // namespace firstray
+}  // namespace firstray::inline v0

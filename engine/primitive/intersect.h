@@ -5,7 +5,7 @@
 #include "engine/core/search_ray.h"
 #include "engine/primitive/triangle.h"
 
-namespace firstray {
+namespace firstray::inline v0 {
 
 /// The test of a search ray and a triangle, in the precision asked for: hits with t_min < t <= t_last.
 template <typename Real>
@@ -18,4 +18,4 @@ FIRSTRAY_INLINE TriangleHit<Real> intersect_precisely(const RootTriangle<Real>& 
         return intersect(triangle, ray.origin, ray.direction, {ray.t_min, t_last});
 }
 
-}  // namespace firstray
+}  // namespace firstray::inline v0

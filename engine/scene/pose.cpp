@@ -4,7 +4,7 @@
 #include <cmath>
 #include <span>
 
-namespace firstray {
+namespace firstray::inline v0 {
 namespace {
 
 /// The two keys between which a time lies, and how far between them.
@@ -33,6 +33,11 @@ Between keys_at(const Scene& scene, const DeformingTriangle& triangle, double ti
     return {&keys.back(), &keys.back(), 0.0};
 }
 
+bool has_keys(const Group& group)
+{
+    return group.deforming && !group.live;
+}
+
 const DeformingTriangle& deforming_triangle(const Scene& scene, const Group& group, std::uint32_t index)
 {
     return scene.deforming[group.first_deforming + index];
@@ -44,9 +49,9 @@ void carry(const Pose& pose, const Group& group, glm::vec<3, Real, glm::defaultp
     using Vec = glm::vec<3, Real, glm::defaultp>;
     const Scene& scene = *pose.scene;
     const Transform& root_from_node = pose.root_from_node[group.node];
-    if (!group.deforming) {
+    if (!has_keys(group)) {
         for (std::uint32_t i = 0; i < group.vertices; ++i)
-            out[i] = Vec(root_from_node.point(scene.positions[group.first_vertex + i]));
+            out[i] = Vec(root_from_node.point(scene.position(group.first_vertex + i)));
         return;
     }
     for (std::uint32_t i = 0; i < group.triangles; ++i) {
@@ -184,13 +189,13 @@ std::array<glm::dvec3, 3> triangle_corners(const Pose& pose, PrimitiveId id)
     const Group& group = scene.group(id);
     const Transform& root_from_node = pose.root_from_node[group.node];
     std::array<glm::dvec3, 3> corners;
-    if (group.deforming) {
+    if (has_keys(group)) {
         const Between keys = keys_at(scene, deforming_triangle(scene, group, id - group.first), pose.time);
         for (int k = 0; k < 3; ++k) corners[static_cast<std::size_t>(k)] = root_from_node.point(keys.position(k));
         return corners;
     }
     const glm::uvec3& vertex = scene.triangles[scene.triangle_slot(id)].vertex;
-    for (int k = 0; k < 3; ++k) corners[static_cast<std::size_t>(k)] = root_from_node.point(scene.positions[vertex[k]]);
+    for (int k = 0; k < 3; ++k) corners[static_cast<std::size_t>(k)] = root_from_node.point(scene.position(vertex[k]));
     return corners;
 }
 
@@ -200,7 +205,7 @@ glm::dvec3 shading_normal(const Pose& pose, PrimitiveId id, double u, double v, 
     const Group& group = scene.group(id);
     const double weight[3] = {1.0 - u - v, u, v};
     glm::dvec3 normal(0.0);  // in the node's system
-    if (group.deforming) {
+    if (has_keys(group)) {
         const Between keys = keys_at(scene, deforming_triangle(scene, group, id - group.first), pose.time);
         for (int k = 0; k < 3; ++k) normal += weight[k] * keys.normal(k);
     } else {
@@ -227,4 +232,4 @@ glm::dvec3 quadric_normal(const Pose& pose, PrimitiveId id, const glm::dvec3& po
     return unit(normals * gradient, normals[2]);  // a cone's tip has no normal: its axis
 }
 
-}  // namespace firstray
+}  // namespace firstray::inline v0

@@ -1,6 +1,6 @@
 #include "engine/strategy/root_geometry.h"
 
-namespace firstray {
+namespace firstray::inline v0 {
 namespace {
 
 bool has_finite_corners(const auto& triangle)
@@ -25,7 +25,7 @@ RootGeometry<Real>::RootGeometry(const Scene& scene)
       moved_(scene.groups.size()),
       was_visible_(scene.groups.size())
 {
-    vertices_.resize(scene.positions.size());
+    vertices_.resize(scene.vertex_count());
     for (const Part& part : scene.parts) {
         const Group& group = scene.groups[part.group];
         for (PrimitiveId id = part.first; id < part.first + part.count; ++id) {
@@ -76,7 +76,7 @@ void RootGeometry<Real>::update_on_touch(const Pose& pose)
         const Transform& stands = pose.root_from_node[group.node];
         const bool is_there = pose.is_visible(group);
         const bool same = stood_[i].linear == stands.linear && stood_[i].offset == stands.offset &&
-                          is_there_[i] == is_there && !(group.deforming && time_ != pose.time);
+                          is_there_[i] == is_there && !(group.deforming && (group.live || time_ != pose.time));
         moved_[i] = is_first || !same;
         is_there_[i] = is_there;
         stood_[i] = stands;
@@ -155,4 +155,4 @@ std::uint64_t RootGeometry<Real>::bytes() const
 template class RootGeometry<float>;
 template class RootGeometry<double>;
 
-}  // namespace firstray
+}  // namespace firstray::inline v0
