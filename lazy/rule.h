@@ -73,7 +73,7 @@ bool is_carried_first(const Costs& costs);
 /// Voxels of the scenery that a ray usually goes through to its hit.
 inline constexpr double voxels_met = 4.0;
 
-inline constexpr std::uint64_t never = ~std::uint64_t{0};
+inline constexpr std::uint64_t never = ~std::uint64_t{0};  ///< more rays than there are
 
 /// The rays with which a place gets its grid: those that came, the ones at hand included. Learned: where a list has
 /// cost them what building and the same rays in the grid would have. So nobody pays more than twice what is best in

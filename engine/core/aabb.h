@@ -37,7 +37,7 @@ Real largest_coordinate(const BasicAabb<Real>& box)
     return glm::max(glm::max(farthest.x, farthest.y), farthest.z);
 }
 
-using Aabb = BasicAabb<float>;
-using DAabb = BasicAabb<double>;
+using Aabb = BasicAabb<float>;    ///< of what is tested
+using DAabb = BasicAabb<double>;  ///< of what is posed
 
 }  // namespace firstray::inline v0

@@ -9,7 +9,7 @@ namespace firstray::inline v0 {
 
 /// Scene-wide index of a primitive; ids run group by group, so order by id is order by (group, primitive).
 using PrimitiveId = std::uint32_t;
-inline constexpr PrimitiveId no_primitive = 0xffffffffu;
+inline constexpr PrimitiveId no_primitive = 0xffffffffu;  ///< where nothing is hit
 
 /// Which primitives a ray can meet.
 enum class RayMask : std::uint8_t {

@@ -18,7 +18,7 @@ struct CameraRays {
     double hither = 0.0;                         ///< depth along `forward` where rays begin
 };
 
-CameraRays camera_rays(const Pose& pose, int width, int height);
+CameraRays camera_rays(const Pose& pose, int width, int height);  ///< of a picture of this size
 
 /// Unit direction through a place in the picture.
 /// place  in pixels from the upper left corner, y down: the centre of pixel (i, j) is (i + 1/2, j + 1/2)

@@ -37,7 +37,7 @@ Pose pose(const Scene& scene, double time);
 /// vertices, so that every strategy gets the same bits: computed in double, rounded once. out  room for group.vertices
 /// points
 void carry_vertices(const Pose& pose, const Group& group, glm::vec3* out);
-void carry_vertices(const Pose& pose, const Group& group, glm::dvec3* out);
+void carry_vertices(const Pose& pose, const Group& group, glm::dvec3* out);  ///< likewise
 
 /// Bounds of everything visible, root system; empty for a scene without visible primitives.
 DAabb bounds(const Pose& pose);

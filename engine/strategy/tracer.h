@@ -88,7 +88,7 @@ private:
     mutable std::atomic<int> users_{0};  ///< batches that are traced; -1 during an update
 };
 
-using Tracer = BasicTracer<float>;
-using DoubleTracer = BasicTracer<double>;
+using Tracer = BasicTracer<float>;         ///< Precision::fast and robust
+using DoubleTracer = BasicTracer<double>;  ///< Precision::double_
 
 }  // namespace firstray::inline v0
