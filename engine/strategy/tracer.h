@@ -22,24 +22,26 @@ template <typename Real>
 class BasicTracer {
 public:
     using Vec = glm::vec<3, Real, glm::defaultp>;  ///< a point or direction
+    /// No end. (Called in a default of Ray, which is nested in a template, the function would crash g++ 12.)
+    static constexpr Real infinity = std::numeric_limits<Real>::infinity();
 
     /// origin + t * direction, t in the open interval (t_min, t_max); the direction may have any length but zero.
     struct Ray {
-        Vec origin{0};                                       ///< where it starts
-        Vec direction{0};                                    ///< what t counts
-        Real t_min = 0;                                      ///< near end
-        Real t_max = std::numeric_limits<Real>::infinity();  ///< far end
+        Vec origin{0};          ///< where it starts
+        Vec direction{0};       ///< what t counts
+        Real t_min = 0;         ///< near end
+        Real t_max = infinity;  ///< far end
     };
 
     /// The nearest thing along a ray. Of meshes: `group`, `mesh` and `triangle` are numbers that Meshes gave or was
     /// given.
     struct Hit {
-        Real t = std::numeric_limits<Real>::infinity();  ///< in lengths of the ray's direction
-        Real u = 0, v = 0;                               ///< weights of a triangle's second and third corner
-        std::uint32_t group = none;                      ///< node in Scene::nodes
-        std::uint32_t mesh = none;                       ///< none too where the scene was read from a file
-        std::uint32_t triangle = none;                   ///< in the mesh (Part), from 0
-        PrimitiveId primitive = no_primitive;            ///< in the scene
+        Real t = infinity;                     ///< in lengths of the ray's direction
+        Real u = 0, v = 0;                     ///< weights of a triangle's second and third corner
+        std::uint32_t group = none;            ///< node in Scene::nodes
+        std::uint32_t mesh = none;             ///< none too where the scene was read from a file
+        std::uint32_t triangle = none;         ///< in the mesh (Part), from 0
+        PrimitiveId primitive = no_primitive;  ///< in the scene
 
         explicit operator bool() const { return primitive != no_primitive; }  ///< something is hit
     };
