@@ -33,8 +33,9 @@ ensure_packages() {
         return
     fi
     local missing optional
-    mapfile -t missing < <(missing_packages "${required_packages[@]}")
-    mapfile -t optional < <(missing_packages "${optional_packages[@]}")
+    # Names have no blanks. Not < <(...): a fresh chroot has no /dev/fd.
+    # shellcheck disable=SC2207
+    missing=($(missing_packages "${required_packages[@]}")) optional=($(missing_packages "${optional_packages[@]}"))
     if ((${#missing[@]} > 0 && EUID != 0)); then
         echo "missing packages; as root: apt-get install ${missing[*]}" >&2
         exit 1
