@@ -17,7 +17,8 @@ std::vector<std::string> names_of(const std::vector<const CLI::Option*>& options
 {
     std::vector<std::string> names;
     for (const CLI::Option* option : options)
-        if (option->nonpositional()) names.push_back(option->get_name());
+        if (option->nonpositional())
+            names.push_back("--" + option->get_single_name());  // get_name of hidden ones is empty
     return names;
 }
 

@@ -155,9 +155,9 @@ std::string motion_rows(const Json& motion)
     for (std::size_t i = 0; i < std::min(most, groups.size()); ++i) {
         const Json& group = groups[i];
         const double reach = group["reach"].get<double>();
-        text += fmt::format("{:<12} {:<24} {:>9} primitives {}{}\n", "", group["name"].get<std::string>(),
-                            group["primitives"].dump(), group["deforms"].get<bool>() ? "deform" : "keep their shape",
-                            reach > 0.0 ? fmt::format(", get {:.3g} away", reach) : "");
+        text += fmt::format("{:<12} {:<24} {:>9} primitives, {}{}\n", "", group["name"].get<std::string>(),
+                            group["primitives"].dump(), group["deforms"].get<bool>() ? "deforming" : "rigid",
+                            reach > 0.0 ? fmt::format(", up to {:.3g} away", reach) : "");
     }
     if (groups.size() > most) text += fmt::format("{:<12} and {} more\n", "", groups.size() - most);
     return text;
@@ -271,8 +271,8 @@ void print_info(const InfoJob& job, Streams streams)
         return;
     }
     if (!job.scene.file.empty())
-        streams.out << table(info) << (job.structure ? structure_rows(info) : "")
-                    << recommendation_rows(info["recommended"], job.scene.file);
+        streams.out << table(info) << recommendation_rows(info["recommended"], job.scene.file)
+                    << (job.structure ? structure_rows(info) : "");
     if (!costs.is_null()) streams.out << cost_rows(costs);
 }
 

@@ -66,14 +66,15 @@ std::string footer_section(const CLI::App& app)
 {
     std::string text = ".PP\n";
     bool in_examples = false;
-    for (const std::string_view line : split(app.get_footer(), '\n')) {
+    const std::string footer = app.get_footer();
+    for (const std::string_view line : split(footer, '\n')) {
         if (line == "Examples:") {
             text += ".PP\nExamples:\n.PP\n.nf\n.RS\n";
             in_examples = true;
         } else if (line.empty()) {
             text += ".PP\n";
         } else {
-            text += roff(std::string(trim(line))) + "\n";
+            text += roff(std::string(trim(line))) + (in_examples ? "\n" : "\n.br\n");
         }
     }
     return text + (in_examples ? ".RE\n.fi\n" : "");
@@ -109,8 +110,7 @@ std::string man_page(const CLI::App& app)
         text += fmt::format(".B firstray {}\n\\fISCENE\\fP [\\fIOPTIONS\\fP]\n.br\n", command->get_name());
     text += ".SH OPTIONS\n" + option_section(app) + footer_section(app);
     for (const CLI::App* command : commands_of(app)) {
-        text += fmt::format(".SH FIRSTRAY {}\n{}.\n", replaced(command->get_name(), "-", "\\-"),
-                            roff(command->get_description()));
+        text += fmt::format(".SH FIRSTRAY {}\n{}.\n", command->get_name(), roff(command->get_description()));
         text += option_section(*command) + footer_section(*command);
     }
     return text;

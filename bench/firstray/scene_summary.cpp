@@ -84,7 +84,7 @@ Recommendation recommend(const SceneMotion& motion, std::uint64_t rays)
                 fmt::format("{:.0f} % of the primitives move without changing shape: it keeps their grids and moves "
                             "boxes",
                             percent(motion.rigid))};
-    if (motion.deforming > 0)
+    if (motion.deforming > motion.still)
         return {"lazy",
                 fmt::format("{:.0f} % of the primitives deform and are built anew: it builds only what rays enter",
                             percent(motion.deforming))};

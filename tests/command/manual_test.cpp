@@ -59,7 +59,7 @@ TEST_CASE("the manual page tells of every command and option that help tells of"
 
 TEST_CASE("bash completes commands, options and the words that options take")
 {
-    CHECK(completed("firstray \"\"") == "render compare info trace --help --version\n");
+    CHECK(completed("firstray \"\"") == "render compare info trace --version --help\n");
     CHECK(completed("firstray com") == "compare\n");
     CHECK(completed("firstray render --frame") == "--frames --frameless\n");
     CHECK(completed("firstray render a.aff --precision r") == "robust\n");
@@ -87,5 +87,5 @@ TEST_CASE("zsh is told of every option with its words, and no quote is left open
 
 TEST_CASE("a page that does not exist is a fault of use")
 {
-    CHECK(call({"manual", "fish"}).err == "firstray: manual: 'fish', expected man, bash or zsh\n");
+    CHECK(call({"manual", "tcsh"}).err.starts_with("firstray: manual: 'tcsh', expected man, bash or zsh"));
 }

@@ -32,6 +32,7 @@ TEST_CASE("the recommendation follows what moves, and its reason names the share
     CHECK(recommended(10, 90, 0) == "obb");
     CHECK(recommended(90, 10, 0) == "lazy");
     CHECK(recommended(10, 0, 90) == "lazy");
+    CHECK(recommended(67, 29, 4) == "lazy");
     CHECK(recommended(10, 90, 0, 100) == "adaptive");
     CHECK(recommended(0, 0, 0) == "lazy");
     SceneMotion motion;
@@ -54,8 +55,7 @@ TEST_CASE("info tells what moves, how far, and what to type")
     CHECK(info["recommended"]["strategy"] == "adaptive");  // 16 x 12 pixels
 
     const std::string text = call({"info", scene}).out;
-    CHECK(text.find("mover                            2 primitives keep their shape, get 4 away\n") !=
-          std::string::npos);
+    CHECK(text.find("mover                            2 primitives, rigid, up to 4 away\n") != std::string::npos);
     CHECK(text.find("recommended  adaptive: 192 primary rays a frame are few") != std::string::npos);
     CHECK(text.find("firstray render " + scene + " --strategy adaptive\n") != std::string::npos);
 }
