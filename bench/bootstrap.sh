@@ -9,6 +9,11 @@ required_packages=(g++ cmake ninja-build pkg-config libtbb-dev libglm-dev libhwy
     libfmt-dev nlohmann-json3-dev doctest-dev libbenchmark-dev)
 optional_packages=(libembree-dev gnuplot-nox)  # a peer to measure against; charts in reports
 
+# Says what is going on, and how long it has been.
+tell() {
+    printf '[%d:%02d] %s\n' $((SECONDS / 60)) $((SECONDS % 60)) "$*" >&2
+}
+
 # Prints which of the given Debian packages are not installed.
 missing_packages() {
     local package
@@ -24,29 +29,30 @@ apt_install() {
 # Installs what is missing where that is possible, else says what to install and ends the script.
 ensure_packages() {
     if ! command -v dpkg-query >/dev/null; then
-        echo "no dpkg-query: packages are not checked, CMake will name what it misses" >&2
+        tell "not Debian or the like: packages are not checked; README names those of other systems"
         return
     fi
     local missing optional
-    mapfile -t missing < <(missing_packages "${required_packages[@]}")
-    mapfile -t optional < <(missing_packages "${optional_packages[@]}")
+    # Names have no blanks. Not < <(...): a fresh chroot has no /dev/fd.
+    # shellcheck disable=SC2207
+    missing=($(missing_packages "${required_packages[@]}")) optional=($(missing_packages "${optional_packages[@]}"))
     if ((${#missing[@]} > 0 && EUID != 0)); then
         echo "missing packages; as root: apt-get install ${missing[*]}" >&2
         exit 1
     fi
     if ((${#missing[@]} + ${#optional[@]} == 0)); then return; fi
     if ((EUID != 0)); then
-        echo "going on without ${optional[*]}; to have it, as root: apt-get install ${optional[*]}" >&2
+        tell "going on without ${optional[*]}; to have it, as root: apt-get install ${optional[*]}"
         return
     fi
-    echo "installing ${missing[*]} ${optional[*]}" >&2
+    tell "installing ${missing[*]} ${optional[*]}"
     apt-get update -qq >/dev/null || echo "apt-get update failed, trying with what is known" >&2
     if ((${#missing[@]} > 0)) && ! apt_install "${missing[@]}"; then
         echo "could not install: ${missing[*]}" >&2
         exit 1
     fi
     if ((${#optional[@]} > 0)) && ! apt_install "${optional[@]}"; then
-        echo "going on without ${optional[*]}" >&2
+        tell "going on without ${optional[*]}"
     fi
 }
 
@@ -63,6 +69,8 @@ quietly() {
 # Configures build/ and builds the given targets.
 build_targets() {
     ensure_packages
+    tell "configuring $build"
     quietly cmake -S "$root" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=RelWithDebInfo
-    cmake --build "$build" --target "$@"
+    tell "building $*"
+    NINJA_STATUS='[%f/%t %es] ' cmake --build "$build" --target "$@"
 }

@@ -4,13 +4,14 @@
 #include <stdexcept>
 
 #include "bench/peers/embree.h"
+#include "engine/core/errors.h"
 #include "engine/strategy/grid.h"
 #include "engine/strategy/list.h"
 #include "lazy/calibrate.h"
 #include "lazy/lazy.h"
 #include "obb/obb.h"
 
-namespace firstray {
+namespace firstray::inline v0 {
 
 namespace {
 
@@ -155,4 +156,39 @@ const StrategyEntry* find_strategy(std::string_view name)
     return nullptr;
 }
 
-}  // namespace firstray
+namespace {
+
+std::string names_of_strategies()
+{
+    std::string names;
+    for (const StrategyEntry& entry : strategies()) names += (names.empty() ? "" : ", ") + std::string(entry.name);
+    return names;
+}
+
+}  // namespace
+
+template <typename Real>
+std::unique_ptr<Strategy<Real>> make_strategy(std::string_view name, const Scene& scene, StrategyOptions options)
+{
+    const StrategyEntry* const entry = find_strategy(name);
+    if (!entry)
+        throw Error(Fault::usage, "no strategy '" + std::string(name) + "', expected one of " + names_of_strategies());
+    constexpr bool in_double = std::is_same_v<Real, double>;
+    if (in_double)
+        options.precision = Precision::double_;
+    else if (options.precision == Precision::double_)
+        throw Error(Fault::usage, "Precision::double_ is for make_strategy<double>");
+    const auto make = [&] {
+        if constexpr (in_double)
+            return entry->make_double;
+        else
+            return entry->make;
+    }();
+    if (!make) throw Error(Fault::usage, "strategy '" + std::string(name) + "' has no such precision");
+    return make(scene, options);
+}
+
+template std::unique_ptr<Strategy<float>> make_strategy(std::string_view, const Scene&, StrategyOptions);
+template std::unique_ptr<Strategy<double>> make_strategy(std::string_view, const Scene&, StrategyOptions);
+
+}  // namespace firstray::inline v0

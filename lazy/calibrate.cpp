@@ -10,7 +10,7 @@
 #include "lazy/lazy.h"
 #include "lazy/lazy_grid.h"
 
-namespace firstray::lazy {
+namespace firstray::inline v0::lazy {
 namespace {
 
 /// Everything is done so often, and the quickest counts: what disturbs a measurement only ever makes it slower.
@@ -200,4 +200,4 @@ const Costs& calibrated_costs()
     return costs;
 }
 
-}  // namespace firstray::lazy
+}  // namespace firstray::inline v0::lazy

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace firstray::lazy {
+namespace firstray::inline v0::lazy {
 namespace {
 
 /// A thread looks at what the others counted each time its own count has grown by this part of what is waited for:
@@ -81,4 +81,4 @@ void Chooser::report(std::uint32_t place, const Alternatives& choice, bool is_bu
     report.hindsight_ms += 1e-6 * least(choice, through_list + through_grid);
 }
 
-}  // namespace firstray::lazy
+}  // namespace firstray::inline v0::lazy

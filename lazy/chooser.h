@@ -7,7 +7,7 @@
 #include "lazy/entry_counts.h"
 #include "lazy/rule.h"
 
-namespace firstray::lazy {
+namespace firstray::inline v0::lazy {
 
 /// Chooses list or grid for every place: the scenery, each group that moves, the voxels of their top grids. Counts the
 /// rays that come for that, those of a voxel until it is built: what is built is searched without a look at this.
@@ -83,4 +83,4 @@ private:
     EntryCounts counts_;                            ///< by place: through the list, through the grid
 };
 
-}  // namespace firstray::lazy
+}  // namespace firstray::inline v0::lazy

@@ -1,6 +1,6 @@
 #include "lazy/entry_counts.h"
 
-namespace firstray::lazy {
+namespace firstray::inline v0::lazy {
 namespace {
 
 constexpr std::size_t per_line = 64 / sizeof(std::atomic<std::uint64_t>);
@@ -44,4 +44,4 @@ std::uint64_t EntryCounts::bytes() const
     return counters_.size() * (places_ + 2 * per_line) * sizeof(std::atomic<std::uint64_t>);
 }
 
-}  // namespace firstray::lazy
+}  // namespace firstray::inline v0::lazy

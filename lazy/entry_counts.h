@@ -6,7 +6,7 @@
 #include <mutex>
 #include <thread>
 
-namespace firstray::lazy {
+namespace firstray::inline v0::lazy {
 
 /// Counts what many threads do in many places, without a lock or a shared cache line: every thread counts for itself.
 class EntryCounts {
@@ -59,4 +59,4 @@ private:
     std::map<std::thread::id, Counters> counters_;
 };
 
-}  // namespace firstray::lazy
+}  // namespace firstray::inline v0::lazy

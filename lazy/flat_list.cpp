@@ -4,7 +4,7 @@
 
 #include "engine/grid/entries.h"
 
-namespace firstray::lazy {
+namespace firstray::inline v0::lazy {
 namespace {
 
 /// Primitives that are rounded and packed at a time: they stay in the first cache in between.
@@ -93,4 +93,4 @@ FlatList make_flat_list(const RootGeometry<Real>& geometry, const PrimitiveList&
 template FlatList make_flat_list(const RootGeometry<float>&, const PrimitiveList&);
 template FlatList make_flat_list(const RootGeometry<double>&, const PrimitiveList&);
 
-}  // namespace firstray::lazy
+}  // namespace firstray::inline v0::lazy

@@ -2,7 +2,7 @@
 #include "engine/grid/grid.h"
 #include "engine/strategy/root_geometry.h"
 
-namespace firstray::lazy {
+namespace firstray::inline v0::lazy {
 
 /// Primitives in packs, and how many of these a ray that comes by is likely to meet.
 struct FlatList {
@@ -17,4 +17,4 @@ struct FlatList {
 template <typename Real>
 FlatList make_flat_list(const RootGeometry<Real>& geometry, const PrimitiveList& primitives);
 
-}  // namespace firstray::lazy
+}  // namespace firstray::inline v0::lazy

@@ -3,7 +3,7 @@
 #include <chrono>
 #include <new>
 
-namespace firstray::lazy {
+namespace firstray::inline v0::lazy {
 namespace {
 
 /// What a group's entries and top grid may hold, guessed before they are made.
@@ -121,4 +121,4 @@ std::uint64_t GroupGrids<Real>::drop(std::uint32_t group)
 template class GroupGrids<float>;
 template class GroupGrids<double>;
 
-}  // namespace firstray::lazy
+}  // namespace firstray::inline v0::lazy

@@ -7,7 +7,7 @@
 #include "lazy/lazy_grid.h"
 #include "lazy/ledger.h"
 
-namespace firstray::lazy {
+namespace firstray::inline v0::lazy {
 
 /// The number under which one grid holds all groups that move.
 inline constexpr std::uint32_t everything_that_moves = 0;
@@ -60,4 +60,4 @@ private:
     std::unique_ptr<MadeOnce<LazyGrid>[]> grids_;  ///< by group
 };
 
-}  // namespace firstray::lazy
+}  // namespace firstray::inline v0::lazy

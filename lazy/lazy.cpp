@@ -11,7 +11,7 @@
 #include "lazy/scenery.h"
 #include "lazy/search.h"
 
-namespace firstray::lazy {
+namespace firstray::inline v0::lazy {
 namespace {
 
 template <typename Real>
@@ -34,6 +34,7 @@ public:
     void update(const Pose& pose) override
     {
         geometry_.update_on_touch(pose);
+        follow_live_groups(scene_, bounds_);
         ledger_.begin_frame();
         dropped_ = 0;
         if (chooser_) begin_choices();
@@ -275,4 +276,4 @@ std::unique_ptr<Strategy<Real>> make_lazy(const Scene& scene, const StrategyOpti
 template std::unique_ptr<Strategy<float>> make_lazy(const Scene&, const StrategyOptions&, const Options&);
 template std::unique_ptr<Strategy<double>> make_lazy(const Scene&, const StrategyOptions&, const Options&);
 
-}  // namespace firstray::lazy
+}  // namespace firstray::inline v0::lazy

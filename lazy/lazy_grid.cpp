@@ -4,7 +4,7 @@
 #include <chrono>
 #include <new>
 
-namespace firstray::lazy {
+namespace firstray::inline v0::lazy {
 namespace {
 
 /// What building a voxel may hold, guessed before it is built: packs, their boxes, and cells of a subgrid.
@@ -124,4 +124,4 @@ void LazyGrid::append_outline(StructureBox heading, std::vector<StructureBox>& o
     out.push_back(std::move(heading));
 }
 
-}  // namespace firstray::lazy
+}  // namespace firstray::inline v0::lazy

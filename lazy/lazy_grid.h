@@ -12,7 +12,7 @@
 #include "lazy/chooser.h"
 #include "lazy/ledger.h"
 
-namespace firstray::lazy {
+namespace firstray::inline v0::lazy {
 
 /// Who chooses which voxels of a grid are built, and where it counts their rays.
 struct VoxelChoice {
@@ -111,4 +111,4 @@ private:
     std::uint64_t held_ = 0;
 };
 
-}  // namespace firstray::lazy
+}  // namespace firstray::inline v0::lazy

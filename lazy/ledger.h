@@ -2,7 +2,7 @@
 #include <atomic>
 #include <cstdint>
 
-namespace firstray::lazy {
+namespace firstray::inline v0::lazy {
 
 /// Counts what is built while rays fly, and how many bytes it holds; shared by all threads. Builds are rare, so that
 /// sharing costs nothing.
@@ -48,4 +48,4 @@ private:
     std::atomic<std::uint64_t> bytes_{0}, built_{0}, refused_{0}, nanoseconds_{0};
 };
 
-}  // namespace firstray::lazy
+}  // namespace firstray::inline v0::lazy

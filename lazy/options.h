@@ -4,7 +4,7 @@
 
 #include "lazy/rule.h"
 
-namespace firstray::lazy {
+namespace firstray::inline v0::lazy {
 
 /// What becomes of what moves.
 enum class LazyTop : std::uint8_t {
@@ -14,9 +14,9 @@ enum class LazyTop : std::uint8_t {
 
 /// What the user chooses about lazy building.
 struct Options {
-    LazyTop top = LazyTop::groups;
+    LazyTop top = LazyTop::groups;  ///< what is listed
     /// Chooses between lists and grids; only with LazyTop::groups. None: the first ray has built what it enters.
     std::optional<Rule> rule{};
 };
 
-}  // namespace firstray::lazy
+}  // namespace firstray::inline v0::lazy

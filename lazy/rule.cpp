@@ -8,7 +8,7 @@
 
 #include "engine/primitive/triangle_pack.h"
 
-namespace firstray::lazy {
+namespace firstray::inline v0::lazy {
 namespace {
 
 /// Packs that a ray meets of many, and blocks of boxes it goes through to find them: beyond these a voxel is a subgrid,
@@ -156,4 +156,4 @@ double least(const Alternatives& place, std::uint64_t rays)
     return place.once + std::min(place.pack + r * place.list, place.build + r * place.grid);
 }
 
-}  // namespace firstray::lazy
+}  // namespace firstray::inline v0::lazy

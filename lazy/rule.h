@@ -3,7 +3,7 @@
 #include <span>
 #include <string_view>
 
-namespace firstray::lazy {
+namespace firstray::inline v0::lazy {
 
 /// What searching and building take on a machine, nanoseconds. calibrate.h measures them.
 struct Costs {
@@ -18,11 +18,12 @@ struct Costs {
     double making = 1500.0;    ///< making a grid or a voxel, however small
 };
 
+/// A cost as people name it.
 struct CostName {
-    std::string_view name, meaning;
-    double Costs::*cost;
+    std::string_view name, meaning;  ///< for people
+    double Costs::*cost;             ///< which it is
 };
-std::span<const CostName> cost_names();
+std::span<const CostName> cost_names();  ///< of all of Costs
 
 /// Costs with some replaced: "test=10,pack=7.5".
 /// throws  std::invalid_argument for a name that is none or a cost that is not a number > 0
@@ -36,11 +37,12 @@ enum class ListOrGrid : std::uint8_t {
     threshold  ///< the first ray has the grid made where there are more primitives than so many
 };
 
+/// How lists and grids are chosen.
 struct Rule {
-    ListOrGrid choice = ListOrGrid::learned;
-    std::uint64_t threshold = 64;  ///< for ListOrGrid::threshold
-    bool forecasts = true;         ///< learned: believe that as many rays come as in the last frame
-    Costs costs{};
+    ListOrGrid choice = ListOrGrid::learned;  ///< how it is chosen
+    std::uint64_t threshold = 64;             ///< for ListOrGrid::threshold
+    bool forecasts = true;                    ///< learned: believe that as many rays come as in the last frame
+    Costs costs{};                            ///< what is counted with
 };
 
 /// Puts "learned", "evidence" (learned, but without forecasts), "always-grid", "always-list" or "threshold=N" into a
@@ -50,12 +52,12 @@ void set_choice(Rule& rule, std::string_view text);
 
 /// What a place offers: to search a list, or to build a grid and search that.
 struct Alternatives {
-    std::uint64_t primitives = 0;
-    double once = 0.0;   ///< when the first ray enters, whatever is chosen, ns
-    double pack = 0.0;   ///< to make the list, which is done before rays come, ns
-    double list = 0.0;   ///< per ray, ns
-    double grid = 0.0;   ///< per ray, ns
-    double build = 0.0;  ///< ns
+    std::uint64_t primitives = 0;  ///< that the place holds
+    double once = 0.0;             ///< when the first ray enters, whatever is chosen, ns
+    double pack = 0.0;             ///< to make the list, which is done before rays come, ns
+    double list = 0.0;             ///< per ray, ns
+    double grid = 0.0;             ///< per ray, ns
+    double build = 0.0;            ///< ns
 };
 
 /// The scenery, whose list is a flat list (flat_list.h).
@@ -71,7 +73,7 @@ bool is_carried_first(const Costs& costs);
 /// Voxels of the scenery that a ray usually goes through to its hit.
 inline constexpr double voxels_met = 4.0;
 
-inline constexpr std::uint64_t never = ~std::uint64_t{0};
+inline constexpr std::uint64_t never = ~std::uint64_t{0};  ///< more rays than there are
 
 /// The rays with which a place gets its grid: those that came, the ones at hand included. Learned: where a list has
 /// cost them what building and the same rays in the grid would have. So nobody pays more than twice what is best in
@@ -85,4 +87,4 @@ double spent(const Alternatives& place, std::uint64_t listed, std::uint64_t grid
 /// The least that so many rays can take, ns.
 double least(const Alternatives& place, std::uint64_t rays);
 
-}  // namespace firstray::lazy
+}  // namespace firstray::inline v0::lazy

@@ -6,7 +6,7 @@
 
 #include "engine/strategy/group_bounds.h"
 
-namespace firstray::lazy {
+namespace firstray::inline v0::lazy {
 namespace {
 
 /// A little more than the largest coordinate, for what is rounded to float.
@@ -117,4 +117,4 @@ std::uint64_t Scenery<Real>::bytes() const
 template class Scenery<float>;
 template class Scenery<double>;
 
-}  // namespace firstray::lazy
+}  // namespace firstray::inline v0::lazy

@@ -10,7 +10,7 @@
 #include "lazy/flat_list.h"
 #include "lazy/lazy_grid.h"
 
-namespace firstray::lazy {
+namespace firstray::inline v0::lazy {
 
 /// What does not move: a lazy grid, or not even that where a chooser thinks that lists will do.
 template <typename Real>
@@ -73,4 +73,4 @@ private:
     mutable MadeOnce<Made> made_;
 };
 
-}  // namespace firstray::lazy
+}  // namespace firstray::inline v0::lazy

@@ -11,7 +11,7 @@
 #include "lazy/search.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace firstray::lazy {
+namespace firstray::inline v0::lazy {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 using namespace firstray::HWY_NAMESPACE;
@@ -272,7 +272,7 @@ private:
 };
 
 }  // namespace HWY_NAMESPACE
-}  // namespace firstray::lazy
+}  // namespace firstray::inline v0::lazy
 HWY_AFTER_NAMESPACE();
 
 #endif  // include guard per instruction set

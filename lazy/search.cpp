@@ -8,7 +8,7 @@
 #include "lazy/search-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace firstray::lazy {
+namespace firstray::inline v0::lazy {
 namespace HWY_NAMESPACE {
 
 void closest_float(const SearchTarget<float>& target, Visits& visits, RayTile<float>& tile)
@@ -29,11 +29,11 @@ void any_double(const SearchTarget<double>& target, Visits& visits, RayTile<doub
 }
 
 }  // namespace HWY_NAMESPACE
-}  // namespace firstray::lazy
+}  // namespace firstray::inline v0::lazy
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace firstray::lazy {
+namespace firstray::inline v0::lazy {
 HWY_EXPORT(closest_float);
 HWY_EXPORT(closest_double);
 HWY_EXPORT(any_float);
@@ -56,5 +56,5 @@ void search_any(const SearchTarget<double>& target, RayTile<double>& tile)
     HWY_DYNAMIC_DISPATCH(any_double)(target, Visits::of_this_thread(), tile);
 }
 
-}  // namespace firstray::lazy
+}  // namespace firstray::inline v0::lazy
 #endif  // HWY_ONCE

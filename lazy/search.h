@@ -6,7 +6,7 @@
 #include "lazy/group_grids.h"
 #include "lazy/lazy_grid.h"
 
-namespace firstray::lazy {
+namespace firstray::inline v0::lazy {
 
 /// Where rays search.
 template <typename Real>
@@ -26,4 +26,4 @@ void search_closest(const SearchTarget<double>& target, RayTile<double>& tile);
 void search_any(const SearchTarget<float>& target, RayTile<float>& tile);
 void search_any(const SearchTarget<double>& target, RayTile<double>& tile);
 
-}  // namespace firstray::lazy
+}  // namespace firstray::inline v0::lazy

@@ -8,7 +8,7 @@
 #include "engine/grid/entry_kernels.h"
 #include "obb/smallest_obb.h"
 
-namespace firstray::obb {
+namespace firstray::inline v0::obb {
 namespace {
 
 /// Up to this many primitives a list of packs with boxes is as quick to search as a grid, or quicker.
@@ -32,7 +32,7 @@ std::vector<glm::dvec3> points_of(const Scene& scene, const BoxPlan& plan, const
         if (is_triangle) {
             for (int k = 0; k < 3; ++k)
                 points.push_back(root_from_node *
-                                 scene.positions[scene.triangles[id - group.first + group.first_triangle].vertex[k]]);
+                                 scene.position(scene.triangles[id - group.first + group.first_triangle].vertex[k]));
             return;
         }
         const Quadric& shape = scene.quadrics[id - group.first - group.triangles + group.first_quadric];
@@ -139,7 +139,7 @@ Box BoxMaker::make_in(const BoxPlan& plan, const Transform& local_from_node, flo
         }
         const glm::uvec3& vertex = scene.triangles[id - group.first + group.first_triangle].vertex;
         RootTriangle<float> t;
-        for (int k = 0; k < 3; ++k) t.v[k] = glm::vec3(box.local_from_node.point(scene.positions[vertex[k]]));
+        for (int k = 0; k < 3; ++k) t.v[k] = glm::vec3(box.local_from_node.point(scene.position(vertex[k])));
         t.edge = longest_edge<float>(t.v[0], t.v[1], t.v[2]);
         if (!is_finite(t)) return;
         for (const glm::vec3& corner : t.v) box.bounds.grow(glm::dvec3(corner));
@@ -171,4 +171,4 @@ template Box BoxMaker::make_deformed(const BoxPlan&, const RootGeometry<float>&,
 template Box BoxMaker::make_deformed(const BoxPlan&, const RootGeometry<double>&, const Transform&, const Executor*,
                                      std::uint64_t&) const;
 
-}  // namespace firstray::obb
+}  // namespace firstray::inline v0::obb

@@ -14,7 +14,7 @@
 #include "engine/scene/scene.h"
 #include "obb/hierarchy.h"
 
-namespace firstray::obb {
+namespace firstray::inline v0::obb {
 
 /// A system whose origin is an oriented box's middle, and whose axes are its edges. Lengths are the root system's where
 /// the box was made for; a transform whose scale changes just stretches it.
@@ -82,4 +82,4 @@ private:
     void fill(Box& box, GridEntries entries, const Executor* executor, std::uint64_t& peak_bytes) const;
 };
 
-}  // namespace firstray::obb
+}  // namespace firstray::inline v0::obb

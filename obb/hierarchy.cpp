@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <map>
 
-namespace firstray::obb {
+namespace firstray::inline v0::obb {
 namespace {
 
 /// The dynamic node at or above `node` that has none above it; the root where there is none.
@@ -67,4 +67,4 @@ Hierarchy plan_hierarchy(const Scene& scene, Groups groups)
     return hierarchy;
 }
 
-}  // namespace firstray::obb
+}  // namespace firstray::inline v0::obb

@@ -6,7 +6,7 @@
 #include "engine/scene/scene.h"
 #include "obb/options.h"
 
-namespace firstray::obb {
+namespace firstray::inline v0::obb {
 
 struct PrimitiveRange {
     PrimitiveId first = 0;
@@ -44,4 +44,4 @@ struct Hierarchy {
 ///         grid, and the grids below a dynamic transform that has none above it make a supergrid
 Hierarchy plan_hierarchy(const Scene& scene, Groups groups);
 
-}  // namespace firstray::obb
+}  // namespace firstray::inline v0::obb

@@ -7,7 +7,7 @@
 #include "engine/strategy/group_bounds.h"
 #include "obb/obb_strategy.h"
 
-namespace firstray::obb {
+namespace firstray::inline v0::obb {
 namespace {
 
 /// Where a node stands at the animation's start; where it would have no size then, at its own origin.
@@ -181,4 +181,4 @@ std::unique_ptr<Strategy<Real>> make_obb(const Scene& scene, const StrategyOptio
 template std::unique_ptr<Strategy<float>> make_obb(const Scene&, const StrategyOptions&, const Options&);
 template std::unique_ptr<Strategy<double>> make_obb(const Scene&, const StrategyOptions&, const Options&);
 
-}  // namespace firstray::obb
+}  // namespace firstray::inline v0::obb

@@ -4,7 +4,7 @@
 #include "engine/strategy/strategy.h"
 #include "obb/options.h"
 
-namespace firstray::obb {
+namespace firstray::inline v0::obb {
 
 /// A grid over the static scenery, built once; an oriented box with a grid of its own around what each transform moves,
 /// built once; and at every update only the boxes' places, and supergrids over those of each topmost transform. What
@@ -14,4 +14,4 @@ namespace firstray::obb {
 template <typename Real>
 std::unique_ptr<Strategy<Real>> make_obb(const Scene& scene, const StrategyOptions& options, const Options& boxes = {});
 
-}  // namespace firstray::obb
+}  // namespace firstray::inline v0::obb

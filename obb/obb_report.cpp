@@ -3,7 +3,7 @@
 #include "engine/grid/outline.h"
 #include "obb/obb_strategy.h"
 
-namespace firstray::obb {
+namespace firstray::inline v0::obb {
 namespace {
 
 /// Maps the unit cube onto a box.
@@ -97,4 +97,4 @@ void ObbStrategy<Real>::outline_cluster(std::uint32_t index, std::vector<Structu
 template class ObbStrategy<float>;
 template class ObbStrategy<double>;
 
-}  // namespace firstray::obb
+}  // namespace firstray::inline v0::obb

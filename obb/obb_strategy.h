@@ -11,7 +11,7 @@
 #include "obb/placing.h"
 #include "obb/search.h"
 
-namespace firstray::obb {
+namespace firstray::inline v0::obb {
 
 /// See make_obb.
 template <typename Real>
@@ -99,4 +99,4 @@ private:
     std::uint64_t peak_bytes_ = 0, regridded_ = 0;
 };
 
-}  // namespace firstray::obb
+}  // namespace firstray::inline v0::obb

@@ -1,7 +1,7 @@
 #pragma once
 #include <cstdint>
 
-namespace firstray::obb {
+namespace firstray::inline v0::obb {
 
 /// What gets a box of its own.
 enum class Groups : std::uint8_t {
@@ -31,10 +31,10 @@ enum class Inside : std::uint8_t {
 
 /// What the user chooses about the hierarchy of boxes.
 struct Options {
-    Groups groups = Groups::dynamic;
-    Top top = Top::grid;
-    Hits hits = Hits::root;
-    Inside inside = Inside::automatic;
+    Groups groups = Groups::dynamic;    ///< what gets a box
+    Top top = Top::grid;                ///< where boxes stand
+    Hits hits = Hits::root;             ///< where hits are decided
+    Inside inside = Inside::automatic;  ///< what is in a box
 };
 
-}  // namespace firstray::obb
+}  // namespace firstray::inline v0::obb

@@ -7,7 +7,7 @@
 #include "engine/strategy/group_bounds.h"
 #include "obb/smallest_obb.h"
 
-namespace firstray::obb {
+namespace firstray::inline v0::obb {
 namespace {
 
 /// Columns made orthonormal, the first keeping its direction; right-handed.
@@ -87,4 +87,4 @@ ClusterBox fit_cluster(const glm::dmat3& axes, std::span<const BoxPlace> places)
     return box;
 }
 
-}  // namespace firstray::obb
+}  // namespace firstray::inline v0::obb

@@ -7,7 +7,7 @@
 #include "engine/core/transform.h"
 #include "obb/box.h"
 
-namespace firstray::obb {
+namespace firstray::inline v0::obb {
 
 /// Where a box stands in a frame: a function of the pose alone, so that nothing drifts.
 struct BoxPlace {
@@ -50,4 +50,4 @@ struct ClusterBox {
 /// The least box around those boxes that are there, along given axes: columns, any that are not singular.
 ClusterBox fit_cluster(const glm::dmat3& axes, std::span<const BoxPlace> places);
 
-}  // namespace firstray::obb
+}  // namespace firstray::inline v0::obb

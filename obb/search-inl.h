@@ -11,7 +11,7 @@
 #include "obb/search.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace firstray::obb {
+namespace firstray::inline v0::obb {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 using namespace firstray::HWY_NAMESPACE;
@@ -201,7 +201,7 @@ private:
 };
 
 }  // namespace HWY_NAMESPACE
-}  // namespace firstray::obb
+}  // namespace firstray::inline v0::obb
 HWY_AFTER_NAMESPACE();
 
 #endif  // include guard per instruction set

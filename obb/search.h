@@ -8,7 +8,7 @@
 #include "engine/strategy/root_geometry.h"
 #include "obb/box.h"
 
-namespace firstray::obb {
+namespace firstray::inline v0::obb {
 
 /// Where an item of a boxed grid stands now, and what is in it.
 struct Placed {
@@ -38,4 +38,4 @@ void search_closest(const SearchTarget<double>& target, RayTile<double>& tile);
 void search_any(const SearchTarget<float>& target, RayTile<float>& tile);
 void search_any(const SearchTarget<double>& target, RayTile<double>& tile);
 
-}  // namespace firstray::obb
+}  // namespace firstray::inline v0::obb

@@ -9,7 +9,7 @@
 #include "obb/fit/slide.h"
 #include "obb/fit/start_frames.h"
 
-namespace firstray::obb {
+namespace firstray::inline v0::obb {
 namespace {
 
 bool is_finite(const glm::dvec3& p)
@@ -172,4 +172,4 @@ Obb smallest_obb(std::span<const glm::dvec3> points)
     return box_around(points, axes, middle + axes * ((box.lo + box.hi) * 0.5) * std::ldexp(1.0, exponent));
 }
 
-}  // namespace firstray::obb
+}  // namespace firstray::inline v0::obb

@@ -3,13 +3,13 @@
 
 #include <span>
 
-namespace firstray::obb {
+namespace firstray::inline v0::obb {
 
 /// An oriented box, closed: the points p with |dot(p - centre, axes[i])| <= half[i].
 struct Obb {
-    glm::dmat3 axes{1.0};  ///< columns: orthonormal, right-handed
-    glm::dvec3 centre{0.0};
-    glm::dvec3 half{0.0};  ///< half extents along the columns, >= 0
+    glm::dmat3 axes{1.0};    ///< columns: orthonormal, right-handed
+    glm::dvec3 centre{0.0};  ///< its middle
+    glm::dvec3 half{0.0};    ///< half extents along the columns, >= 0
 };
 
 /// What a ray's chance of entering is proportional to.
@@ -27,4 +27,4 @@ inline double surface_area(const Obb& box)
 /// source   starts after T. Larsson, L. Kallberg, "Fast Computation of Tight-Fitting Oriented Bounding Boxes", 2011
 Obb smallest_obb(std::span<const glm::dvec3> points);
 
-}  // namespace firstray::obb
+}  // namespace firstray::inline v0::obb

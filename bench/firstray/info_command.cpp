@@ -4,6 +4,7 @@
 
 #include "bench/firstray/frame_list.h"
 #include "bench/firstray/jobs.h"
+#include "bench/firstray/scene_summary.h"
 #include "bench/firstray/search.h"
 #include "bench/firstray/stats.h"
 #include "bench/firstray/structure_table.h"
@@ -55,9 +56,28 @@ Json describe_camera(const Scene& scene, const Pose& start)
             {"moves", scene.camera_animation != none}};
 }
 
+Json describe_motion(const SceneMotion& motion)
+{
+    Json list = Json::array();
+    for (const GroupMotion& group : motion.movers)
+        list.push_back({{"name", group.name},
+                        {"primitives", group.primitives},
+                        {"deforms", group.deforms},
+                        {"reach", group.reach}});
+    return {{"still", motion.still}, {"rigid", motion.rigid}, {"deforming", motion.deforming}, {"groups", list}};
+}
+
+Json describe_recommendation(const Scene& scene, const SceneMotion& motion)
+{
+    const auto rays = static_cast<std::uint64_t>(scene.view.width) * static_cast<std::uint64_t>(scene.view.height);
+    const auto [strategy, reason] = recommend(motion, rays);
+    return {{"strategy", strategy}, {"reason", reason}};
+}
+
 Json describe(const Scene& scene, const std::vector<Texture>& textures)
 {
     const Pose start = pose(scene, scene.start);
+    const SceneMotion motion = motion_of(scene);
     Json statements = Json::object();
     for (const auto& [word, count] : scene.census.statements) statements[word] = count;
     return {{"name", scene.name},
@@ -78,7 +98,9 @@ Json describe(const Scene& scene, const std::vector<Texture>& textures)
             {"origin", to_json(scene.origin)},
             {"animation", {{"start", scene.start}, {"end", scene.end}, {"frames", scene.frames}}},
             {"camera", describe_camera(scene, start)},
-            {"resolution", {scene.view.width, scene.view.height}}};
+            {"resolution", {scene.view.width, scene.view.height}},
+            {"motion", describe_motion(motion)},
+            {"recommended", describe_recommendation(scene, motion)}};
 }
 
 std::string vector_text(const Json& v)
@@ -118,6 +140,37 @@ std::string texture_rows(const Json& textures)
     return text;
 }
 
+/// What moves, the largest groups by name.
+std::string motion_rows(const Json& motion)
+{
+    constexpr std::size_t most = 6;
+    const auto count = [&](const char* name) { return motion[name].get<std::uint64_t>(); };
+    const double total = std::max(1.0, static_cast<double>(count("still") + count("rigid") + count("deforming")));
+    const auto share = [&](const char* name) { return 100.0 * static_cast<double>(count(name)) / total; };
+    std::string text =
+        row("motion", fmt::format("{:.3g} % of the primitives stand still, {:.3g} % move rigidly, {:.3g} % "
+                                  "deform",
+                                  share("still"), share("rigid"), share("deforming")));
+    const Json& groups = motion["groups"];
+    for (std::size_t i = 0; i < std::min(most, groups.size()); ++i) {
+        const Json& group = groups[i];
+        const double reach = group["reach"].get<double>();
+        text += fmt::format("{:<12} {:<24} {:>9} primitives, {}{}\n", "", group["name"].get<std::string>(),
+                            group["primitives"].dump(), group["deforms"].get<bool>() ? "deforming" : "rigid",
+                            reach > 0.0 ? fmt::format(", up to {:.3g} away", reach) : "");
+    }
+    if (groups.size() > most) text += fmt::format("{:<12} and {} more\n", "", groups.size() - most);
+    return text;
+}
+
+/// The strategy, why, and what to type.
+std::string recommendation_rows(const Json& recommended, const std::string& file)
+{
+    const std::string strategy = recommended["strategy"].get<std::string>();
+    return row("recommended", fmt::format("{}: {}", strategy, recommended["reason"].get<std::string>())) +
+           row("", fmt::format("firstray render {} --strategy {}", file, strategy));
+}
+
 std::string table(const Json& info)
 {
     const Json &groups = info["groups"], &animation = info["animation"], &camera = info["camera"];
@@ -141,7 +194,7 @@ std::string table(const Json& info)
                                       vector_text(camera["forward"]), camera["angle"].get<double>(),
                                       camera["moves"].get<bool>() ? "moves" : "stands"));
     text += row("resolution", fmt::format("{}x{}", info["resolution"][0].dump(), info["resolution"][1].dump()));
-    return text + statement_rows(info["statements"]) + texture_rows(info["textures"]);
+    return text + statement_rows(info["statements"]) + texture_rows(info["textures"]) + motion_rows(info["motion"]);
 }
 
 void add_structure(const InfoJob& job, const Scene& scene, Json& info)
@@ -217,7 +270,9 @@ void print_info(const InfoJob& job, Streams streams)
         streams.out << info.dump(2) << "\n";
         return;
     }
-    if (!job.scene.file.empty()) streams.out << table(info) << (job.structure ? structure_rows(info) : "");
+    if (!job.scene.file.empty())
+        streams.out << table(info) << recommendation_rows(info["recommended"], job.scene.file)
+                    << (job.structure ? structure_rows(info) : "");
     if (!costs.is_null()) streams.out << cost_rows(costs);
 }
 

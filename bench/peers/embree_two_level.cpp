@@ -83,7 +83,7 @@ private:
         const Group& group = scene_.groups[index];
         if (placement_of(group) != Placement::moves) return body;
         for (std::uint32_t i = 0; i < group.vertices; ++i)
-            body->vertices()[i] = glm::vec3(scene_.positions[group.first_vertex + i]);
+            body->vertices()[i] = glm::vec3(scene_.position(group.first_vertex + i));
         const Transform identity;
         body->place_quadrics(scene_, {&identity, 1});
         body->commit();

@@ -7,7 +7,7 @@
 
 #include "engine/scene/pose.h"
 
-namespace firstray {
+namespace firstray::inline v0 {
 namespace {
 
 /// Positions are stored in double but carried to float.
@@ -269,4 +269,4 @@ Scene SceneBuilder::finish()
     return std::move(scene);
 }
 
-}  // namespace firstray
+}  // namespace firstray::inline v0

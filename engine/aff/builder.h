@@ -11,7 +11,7 @@
 #include "engine/aff/reader.h"
 #include "engine/scene/scene.h"
 
-namespace firstray {
+namespace firstray::inline v0 {
 
 /// Triangles of one statement, in the system of the innermost open transform; indices count from 0 in these lists.
 struct TriangleList {
@@ -90,4 +90,4 @@ private:
     std::vector<std::pair<std::size_t, std::string>> animated_lights_;  // index and name
 };
 
-}  // namespace firstray
+}  // namespace firstray::inline v0

@@ -4,7 +4,7 @@
 #include <charconv>
 #include <cmath>
 
-namespace firstray {
+namespace firstray::inline v0 {
 namespace {
 
 bool is_space(char c)
@@ -226,4 +226,4 @@ void Lexer::over_limit(const std::string& what, std::uint64_t limit, const char*
                      here.chain);
 }
 
-}  // namespace firstray
+}  // namespace firstray::inline v0

@@ -9,7 +9,7 @@
 #include "engine/aff/source.h"
 #include "engine/core/errors.h"
 
-namespace firstray {
+namespace firstray::inline v0 {
 
 /// A piece of a file for a message: in double quotes, unprintable bytes escaped, at most 80 characters of it.
 std::string quote(std::string_view text);
@@ -79,4 +79,4 @@ private:
     mutable int lines_ = 0;  // that end before counted_
 };
 
-}  // namespace firstray
+}  // namespace firstray::inline v0

@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-namespace firstray {
+namespace firstray::inline v0 {
 namespace {
 
 /// Twice the polygon's area along each axis (Newell); its direction is the polygon's normal.
@@ -83,4 +83,4 @@ std::vector<glm::uvec3> triangulate(std::span<const glm::dvec3> corners)
     return fan;
 }
 
-}  // namespace firstray
+}  // namespace firstray::inline v0

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-namespace firstray {
+namespace firstray::inline v0 {
 
 inline constexpr std::size_t max_concave_corners = 1024;  ///< cutting ears takes up to the cube of it
 
@@ -17,4 +17,4 @@ std::vector<glm::uvec3> triangulate(std::span<const glm::dvec3> corners);
 
 bool is_convex(std::span<const glm::dvec3> corners);
 
-}  // namespace firstray
+}  // namespace firstray::inline v0

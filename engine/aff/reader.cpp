@@ -4,7 +4,7 @@
 
 #include "engine/aff/statements.h"
 
-namespace firstray {
+namespace firstray::inline v0 {
 namespace {
 
 struct Statement {
@@ -157,4 +157,4 @@ Scene read_aff(const std::filesystem::path& main_file, const ReadLimits& limits)
     return scene;
 }
 
-}  // namespace firstray
+}  // namespace firstray::inline v0

@@ -5,19 +5,19 @@
 
 #include "engine/scene/scene.h"
 
-namespace firstray {
+namespace firstray::inline v0 {
 
 /// Bounds on what a scene file may ask for; a file that asks for more is refused with LimitError or SceneError.
 struct ReadLimits {
-    int include_depth = 32;
-    int transform_depth = 1024;
-    std::size_t files = 4096;  ///< executed includes may repeat files; this counts distinct ones
-    std::uint64_t file_bytes = 1u << 30;
+    int include_depth = 32;                     ///< files inside each other
+    int transform_depth = 1024;                 ///< transforms inside each other
+    std::size_t files = 4096;                   ///< executed includes may repeat files; this counts distinct ones
+    std::uint64_t file_bytes = 1u << 30;        ///< of one file
     std::uint64_t expanded_bytes = 1ull << 32;  ///< of text, counting a file each time it is included
-    std::uint64_t primitives = 1u << 30;
-    std::uint64_t keys = 1'000'000;  ///< of one track
-    int resolution = 16384;          ///< of the view, per axis
-    bool allow_outside = false;      ///< includes and textures may lie outside the main file's folder
+    std::uint64_t primitives = 1u << 30;        ///< of the scene
+    std::uint64_t keys = 1'000'000;             ///< of one track
+    int resolution = 16384;                     ///< of the view, per axis
+    bool allow_outside = false;                 ///< includes and textures may lie outside the main file's folder
 };
 
 /// Reads an AFF scene (Animated File Format, BART 2000) with everything it includes.
@@ -25,4 +25,4 @@ struct ReadLimits {
 /// throws     FileError when a file cannot be read, SceneError for what is wrong in one, LimitError
 Scene read_aff(const std::filesystem::path& main_file, const ReadLimits& limits = {});
 
-}  // namespace firstray
+}  // namespace firstray::inline v0

@@ -7,7 +7,7 @@
 
 #include "engine/aff/lexer.h"
 
-namespace firstray {
+namespace firstray::inline v0 {
 namespace {
 
 namespace fs = std::filesystem;
@@ -82,4 +82,4 @@ const SourceFile& SceneFolder::read(const fs::path& shown, const fs::path& canon
     return *(by_path_[canonical.string()] = std::move(source));
 }
 
-}  // namespace firstray
+}  // namespace firstray::inline v0

@@ -8,7 +8,7 @@
 
 #include "engine/aff/reader.h"
 
-namespace firstray {
+namespace firstray::inline v0 {
 
 class Lexer;
 
@@ -55,4 +55,4 @@ private:
     std::uint64_t bytes_ = 0;
 };
 
-}  // namespace firstray
+}  // namespace firstray::inline v0

@@ -4,7 +4,7 @@
 #include "engine/aff/reader.h"
 #include "engine/aff/source.h"
 
-namespace firstray {
+namespace firstray::inline v0 {
 
 /// What the functions that read a statement's body work with.
 struct Reading {
@@ -42,4 +42,4 @@ void read_mesh(Reading& r);                            // m
 /// throws  SceneError for a zero factor, or a zero axis with an angle other than zero
 Transform read_transform(Lexer& in);
 
-}  // namespace firstray
+}  // namespace firstray::inline v0

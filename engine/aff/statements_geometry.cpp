@@ -4,7 +4,7 @@
 #include "engine/aff/polygon.h"
 #include "engine/aff/statements.h"
 
-namespace firstray {
+namespace firstray::inline v0 {
 namespace {
 
 /// Two vectors at right angles to a unit vector and to each other, right-handed: x, y, z.
@@ -192,4 +192,4 @@ void read_mesh(Reading& r)
     r.builder.add(std::move(list), r.in);
 }
 
-}  // namespace firstray
+}  // namespace firstray::inline v0

@@ -2,7 +2,7 @@
 
 #include "engine/aff/statements.h"
 
-namespace firstray {
+namespace firstray::inline v0 {
 namespace {
 
 /// A point light's optional colour is there exactly when numbers follow.
@@ -172,4 +172,4 @@ void read_keyframes(Reading& r)
     r.builder.set_animation(std::move(animation));
 }
 
-}  // namespace firstray
+}  // namespace firstray::inline v0

@@ -4,7 +4,7 @@
 #include <sys/mman.h>
 #endif
 
-namespace firstray {
+namespace firstray::inline v0 {
 namespace {
 
 constexpr std::size_t line = 64, huge_page = std::size_t{1} << 21;
@@ -33,4 +33,4 @@ void free_lines(void* memory, std::size_t bytes)
     ::operator delete(memory, boundary(bytes));
 }
 
-}  // namespace firstray
+}  // namespace firstray::inline v0

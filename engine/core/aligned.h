@@ -4,7 +4,7 @@
 #include <new>
 #include <vector>
 
-namespace firstray {
+namespace firstray::inline v0 {
 
 /// Memory on the boundary of a cache line; much of it in huge pages where the system has them, because it takes longer to
 /// be given pages of 4 KB than to fill them.
@@ -43,4 +43,4 @@ struct CacheLineAllocator {
 template <typename T>
 using RawVector = std::vector<T, CacheLineAllocator<T>>;
 
-}  // namespace firstray
+}  // namespace firstray::inline v0

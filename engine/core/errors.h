@@ -2,7 +2,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace firstray {
+namespace firstray::inline v0 {
 
 /// What a failed run is to blame on; the command's exit codes are these values.
 enum class Fault { rendering = 1, usage = 2, scene = 3, file = 4, limit = 5 };
@@ -10,8 +10,8 @@ enum class Fault { rendering = 1, usage = 2, scene = 3, file = 4, limit = 5 };
 /// Base of everything the library throws on purpose. what() is one line (a scene fault adds one line per include).
 class Error : public std::runtime_error {
 public:
-    Error(Fault fault, const std::string& message) : std::runtime_error(message), fault_(fault) {}
-    Fault fault() const { return fault_; }
+    Error(Fault fault, const std::string& message) : std::runtime_error(message), fault_(fault) {}  ///< with what()
+    Fault fault() const { return fault_; }                                                          ///< what to blame
 
 private:
     Fault fault_;
@@ -19,9 +19,9 @@ private:
 
 /// A place in a scene file; lines and columns count from 1, columns in bytes.
 struct FilePlace {
-    std::string file;
-    int line = 1;
-    int column = 1;
+    std::string file;  ///< as it was opened
+    int line = 1;      ///< from 1
+    int column = 1;    ///< from 1
 };
 
 /// A file that does not say what it must: "file:line:column: what was read, expected what was expected".
@@ -39,13 +39,13 @@ public:
 /// A file that cannot be opened, read or written; the message names it and the reason.
 class FileError : public Error {
 public:
-    explicit FileError(const std::string& message) : Error(Fault::file, message) {}
+    explicit FileError(const std::string& message) : Error(Fault::file, message) {}  ///< with what()
 };
 
 /// Something larger than a limit allows; the message names the limit.
 class LimitError : public Error {
 public:
-    explicit LimitError(const std::string& message) : Error(Fault::limit, message) {}
+    explicit LimitError(const std::string& message) : Error(Fault::limit, message) {}  ///< with what()
 };
 
-}  // namespace firstray
+}  // namespace firstray::inline v0

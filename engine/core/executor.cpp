@@ -22,7 +22,7 @@
 #endif
 #endif
 
-namespace firstray {
+namespace firstray::inline v0 {
 namespace {
 
 /// A loop on threads that are made for it.
@@ -100,4 +100,4 @@ void for_pieces(const Executor* executor, std::size_t count, std::size_t grain,
         body(0, count);
 }
 
-}  // namespace firstray
+}  // namespace firstray::inline v0

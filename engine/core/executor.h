@@ -3,7 +3,7 @@
 #include <functional>
 #include <memory>
 
-namespace firstray {
+namespace firstray::inline v0 {
 
 /// Runs loops on a fixed number of threads. One small interface over TBB, so that nothing else names it.
 /// Engines with executors of their own do not disturb each other.
@@ -37,4 +37,4 @@ private:
 void for_pieces(const Executor* executor, std::size_t count, std::size_t grain,
                 const std::function<void(std::size_t begin, std::size_t end)>& body);
 
-}  // namespace firstray
+}  // namespace firstray::inline v0

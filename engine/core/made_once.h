@@ -8,7 +8,7 @@
 #define FIRSTRAY_MUTANT 0  // 1, 2, 3: a fault on purpose, which tests/core/made_once_test.cpp must catch
 #endif
 
-namespace firstray {
+namespace firstray::inline v0 {
 
 /// Something that the first thread to ask for it makes; the others do not wait but do without. One atomic word:
 /// not made -> being made -> made (a pointer), or refused until the next reset.
@@ -78,4 +78,4 @@ private:
     std::atomic<std::uintptr_t> word_{not_made};
 };
 
-}  // namespace firstray
+}  // namespace firstray::inline v0

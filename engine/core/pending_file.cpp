@@ -10,7 +10,7 @@
 
 #include "engine/core/errors.h"
 
-namespace firstray {
+namespace firstray::inline v0 {
 namespace {
 
 /// A name next to `target` that neither another process nor another thread picks at the same time.
@@ -61,4 +61,4 @@ void write_whole_file(const std::filesystem::path& file, std::string_view conten
     pending.commit();
 }
 
-}  // namespace firstray
+}  // namespace firstray::inline v0

@@ -2,7 +2,7 @@
 #include <filesystem>
 #include <string_view>
 
-namespace firstray {
+namespace firstray::inline v0 {
 
 /// A file on its way: written under a temporary name in the folder of its target and renamed when it is whole, so that
 /// a reader sees the old file or the new one, never a part. The temporary file goes away if commit() was not reached.
@@ -30,4 +30,4 @@ private:
 /// throws  FileError
 void write_whole_file(const std::filesystem::path& file, std::string_view content);
 
-}  // namespace firstray
+}  // namespace firstray::inline v0

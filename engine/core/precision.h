@@ -1,6 +1,6 @@
 #pragma once
 
-namespace firstray {
+namespace firstray::inline v0 {
 
 /// How the test of a ray and a triangle is computed; t, u and v have the precision of a strategy's `Real`.
 enum class Precision {
@@ -9,4 +9,4 @@ enum class Precision {
     double_  ///< double vertices and rays, exact signs
 };
 
-}  // namespace firstray
+}  // namespace firstray::inline v0

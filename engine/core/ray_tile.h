@@ -5,11 +5,11 @@
 #include <cstdint>
 #include <limits>
 
-namespace firstray {
+namespace firstray::inline v0 {
 
 /// Scene-wide index of a primitive; ids run group by group, so order by id is order by (group, primitive).
 using PrimitiveId = std::uint32_t;
-inline constexpr PrimitiveId no_primitive = 0xffffffffu;
+inline constexpr PrimitiveId no_primitive = 0xffffffffu;  ///< where nothing is hit
 
 /// Which primitives a ray can meet.
 enum class RayMask : std::uint8_t {
@@ -38,18 +38,18 @@ struct RayCost {
 /// a zero direction meets nothing.
 template <typename Real>
 struct RayTile {
-    using Vec = glm::vec<3, Real, glm::defaultp>;
-    static constexpr int capacity = 1024;
-    using Lane = std::array<Real, capacity>;
+    using Vec = glm::vec<3, Real, glm::defaultp>;  ///< a point or direction
+    static constexpr int capacity = 1024;          ///< most rays in a tile
+    using Lane = std::array<Real, capacity>;       ///< a number per ray
 
     int count = 0;                ///< rays in use, [0, capacity]
     bool common_apex = false;     ///< all rays start at `apex`; `origin` is then not read
     RayMask mask = RayMask::all;  ///< of all rays in the tile
-    Vec apex{0};
+    Vec apex{0};                  ///< where all rays start, if common_apex
 
     alignas(64) Lane origin[3];     ///< x, y, z
     alignas(64) Lane direction[3];  ///< x, y, z
-    alignas(64) Lane t_min;
+    alignas(64) Lane t_min;         ///< the near end
     alignas(64) Lane t_max;  ///< in: the far end, infinity allowed; out, by closest: t of the nearest hit, if any
 
     /// Set by closest: no_primitive where nothing was hit. Set by occluded: any primitive met, or no_primitive.
@@ -57,14 +57,15 @@ struct RayTile {
     alignas(64) Lane u;  ///< triangle: weight of vertex 1; quadrics: 0
     alignas(64) Lane v;  ///< triangle: weight of vertex 2; quadrics: 0
 
-    /// `count` entries that the search adds to, or null: counting then costs nothing. Rays whose cost is asked for go one
-    /// by one, since a beam's cannot be told apart.
+    /// `count` entries that the search adds to, or null: counting then costs nothing. Rays whose cost is asked for go
+    /// one by one, since a beam's cannot be told apart.
     RayCost* cost = nullptr;
 
-    Vec origin_of(int i) const { return common_apex ? apex : get(origin, i); }
-    Vec direction_of(int i) const { return get(direction, i); }
-    void set_origin(int i, const Vec& o) { set(origin, i, o); }
-    void set_direction(int i, const Vec& d) { set(direction, i, d); }
+    Vec origin_of(int i) const { return common_apex ? apex : get(origin, i); }  ///< of ray i
+    Vec direction_of(int i) const { return get(direction, i); }                 ///< of ray i
+    void set_origin(int i, const Vec& o) { set(origin, i, o); }                 ///< of ray i
+    void set_direction(int i, const Vec& d) { set(direction, i, d); }           ///< of ray i
+    /// t_min and t_max of ray i.
     void set_interval(int i, Real begin, Real end = std::numeric_limits<Real>::infinity())
     {
         t_min[static_cast<std::size_t>(i)] = begin;
@@ -83,4 +84,4 @@ private:
     }
 };
 
-}  // namespace firstray
+}  // namespace firstray::inline v0

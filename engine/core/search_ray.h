@@ -3,7 +3,7 @@
 
 #include "engine/core/ray_tile.h"
 
-namespace firstray {
+namespace firstray::inline v0 {
 
 /// One ray of a tile as searches want it: known to be finite, and with a direction whose largest component is not
 /// extreme. Directions outside [2^-32, 2^32) are scaled by a power of two, which changes t exactly and nothing else, so
@@ -67,4 +67,4 @@ template <typename Real>
     tile.v[i] = hit.v;
 }
 
-}  // namespace firstray
+}  // namespace firstray::inline v0

@@ -8,7 +8,7 @@
 #include <hwy/highway.h>
 
 HWY_BEFORE_NAMESPACE();
-namespace firstray {
+namespace firstray::inline v0 {
 namespace HWY_NAMESPACE {
 
 std::int64_t this_target()
@@ -17,11 +17,11 @@ std::int64_t this_target()
 }
 
 }  // namespace HWY_NAMESPACE
-}  // namespace firstray
+}  // namespace firstray::inline v0
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace firstray {
+namespace firstray::inline v0 {
 namespace {
 
 HWY_EXPORT(this_target);
@@ -71,5 +71,5 @@ void use_instruction_set(std::string_view name)
     throw std::invalid_argument("no instruction set " + std::string(name) + " on this machine");
 }
 
-}  // namespace firstray
+}  // namespace firstray::inline v0
 #endif  // HWY_ONCE

@@ -3,7 +3,7 @@
 #include <string_view>
 #include <vector>
 
-namespace firstray {
+namespace firstray::inline v0 {
 
 /// The instruction sets that this machine has kernels for, best first, e.g. {"AVX3", "AVX2", "SSE4", "EMU128"}.
 std::vector<std::string> instruction_sets();
@@ -16,4 +16,4 @@ std::string instruction_set();
 /// throws  std::invalid_argument for a name that is not in instruction_sets()
 void use_instruction_set(std::string_view name);
 
-}  // namespace firstray
+}  // namespace firstray::inline v0

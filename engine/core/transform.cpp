@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace firstray {
+namespace firstray::inline v0 {
 namespace {
 
 double largest_entry(const glm::dmat3& m)
@@ -55,4 +55,4 @@ glm::dmat3 normal_matrix(const Transform& t)
     return cofactors(t.linear) * sign;
 }
 
-}  // namespace firstray
+}  // namespace firstray::inline v0

@@ -1,15 +1,15 @@
 #pragma once
 #include <glm/glm.hpp>
 
-namespace firstray {
+namespace firstray::inline v0 {
 
 /// An affine map p -> linear * p + offset, in double: poses and ray transforms never run in float.
 struct Transform {
-    glm::dmat3 linear{1.0};
-    glm::dvec3 offset{0.0};
+    glm::dmat3 linear{1.0};  ///< columns: where the axes go
+    glm::dvec3 offset{0.0};  ///< where the origin goes
 
-    glm::dvec3 point(const glm::dvec3& p) const { return linear * p + offset; }
-    glm::dvec3 vector(const glm::dvec3& v) const { return linear * v; }
+    glm::dvec3 point(const glm::dvec3& p) const { return linear * p + offset; }  ///< where a point goes
+    glm::dvec3 vector(const glm::dvec3& v) const { return linear * v; }          ///< where a difference of points goes
 };
 
 /// a_from_b * b_from_c = a_from_c.
@@ -30,4 +30,4 @@ Transform inverse(const Transform& t);
 /// Maps normals: the inverse transpose of `linear`, up to a positive factor; defined for singular maps too.
 glm::dmat3 normal_matrix(const Transform& t);
 
-}  // namespace firstray
+}  // namespace firstray::inline v0

@@ -4,7 +4,7 @@
 #include <cstring>
 #include <memory>
 
-namespace firstray {
+namespace firstray::inline v0 {
 
 Mailbox& Mailbox::of_this_thread()
 {
@@ -48,4 +48,4 @@ BeamRays& beam_rays_of_this_thread()
     return *rays;
 }
 
-}  // namespace firstray
+}  // namespace firstray::inline v0

@@ -5,7 +5,7 @@
 #include "engine/core/ray_tile.h"
 #include "engine/primitive/triangle_pack.h"
 
-namespace firstray {
+namespace firstray::inline v0 {
 
 /// A beam is up to 1,024 rays with a common apex, sixteen to a packet. Beams walk through grids as one; which rays need
 /// what is found there is decided packet by packet, the packets side by side in lanes.
@@ -128,4 +128,4 @@ private:
 /// Room for the rays of a beam. One for each thread.
 BeamRays& beam_rays_of_this_thread();
 
-}  // namespace firstray
+}  // namespace firstray::inline v0

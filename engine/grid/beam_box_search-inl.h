@@ -10,7 +10,7 @@
 #include "engine/grid/box_search-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace firstray {
+namespace firstray::inline v0 {
 namespace HWY_NAMESPACE {
 
 /// The packets of a beam in the root system that may have a ray in an oriented box before it ends.
@@ -113,7 +113,7 @@ private:
 };
 
 }  // namespace HWY_NAMESPACE
-}  // namespace firstray
+}  // namespace firstray::inline v0
 HWY_AFTER_NAMESPACE();
 
 #endif  // include guard per instruction set

@@ -12,7 +12,7 @@
 #include "engine/primitive/pack_kernels-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace firstray {
+namespace firstray::inline v0 {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
@@ -241,7 +241,7 @@ HWY_INLINE PacketMask packets_meeting(const Beam& beam, const BeamTriangles& tri
 }
 
 }  // namespace HWY_NAMESPACE
-}  // namespace firstray
+}  // namespace firstray::inline v0
 HWY_AFTER_NAMESPACE();
 
 #endif  // include guard per instruction set

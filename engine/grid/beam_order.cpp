@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-namespace firstray {
+namespace firstray::inline v0 {
 namespace {
 
 constexpr int directions = 6;  // an axis, forward or back
@@ -167,4 +167,4 @@ void BeamOrder::add(const BeamPart& part)
     parts[count++] = part;
 }
 
-}  // namespace firstray
+}  // namespace firstray::inline v0

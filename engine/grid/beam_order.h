@@ -4,7 +4,7 @@
 #include "engine/core/ray_tile.h"
 #include "engine/grid/beam.h"
 
-namespace firstray {
+namespace firstray::inline v0 {
 
 /// The axes of a beam: k is the one along which all its rays go forward or all go back.
 struct BeamAxes {
@@ -60,4 +60,4 @@ private:
     void add(const BeamPart& part);
 };
 
-}  // namespace firstray
+}  // namespace firstray::inline v0

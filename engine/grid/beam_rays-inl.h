@@ -10,7 +10,7 @@
 #include "engine/grid/packet_kernels-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace firstray {
+namespace firstray::inline v0 {
 namespace HWY_NAMESPACE {
 
 /// Whether all rays of a tile can walk in one beam of a direction.
@@ -294,7 +294,7 @@ HWY_NOINLINE void search_by_beams(RayTile<float>& tile, float cell, const Search
 }
 
 }  // namespace HWY_NAMESPACE
-}  // namespace firstray
+}  // namespace firstray::inline v0
 HWY_AFTER_NAMESPACE();
 
 #endif  // include guard per instruction set

@@ -11,7 +11,7 @@
 #include "engine/grid/search-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace firstray {
+namespace firstray::inline v0 {
 namespace HWY_NAMESPACE {
 
 /// A beam on its way: what its rays look for and what they have found, in whatever structures it meets.
@@ -275,7 +275,7 @@ HWY_INLINE void search_tile(RayTile<Real>& tile, Precision precision, const Sear
 }
 
 }  // namespace HWY_NAMESPACE
-}  // namespace firstray
+}  // namespace firstray::inline v0
 HWY_AFTER_NAMESPACE();
 
 #endif  // include guard per instruction set

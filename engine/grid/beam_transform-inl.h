@@ -10,7 +10,7 @@
 #include "engine/grid/beam_rays-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace firstray {
+namespace firstray::inline v0 {
 namespace HWY_NAMESPACE {
 
 /// The packets asked for in another system; returns those of them that go along one axis there, and can walk. A
@@ -92,7 +92,7 @@ HWY_INLINE PacketMask transform(const Beam& root, PacketMask asked, const Transf
 }
 
 }  // namespace HWY_NAMESPACE
-}  // namespace firstray
+}  // namespace firstray::inline v0
 HWY_AFTER_NAMESPACE();
 
 #endif  // include guard per instruction set

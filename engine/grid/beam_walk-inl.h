@@ -10,7 +10,7 @@
 #include "engine/grid/grid.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace firstray {
+namespace firstray::inline v0 {
 namespace HWY_NAMESPACE {
 
 /// Where a beam's packets pass a slice of cells: ranges along u and v, relative to the apex.
@@ -131,7 +131,7 @@ HWY_NOINLINE void walk_slices(const Grid& grid, const Beam& beam, PacketMask ask
 }
 
 }  // namespace HWY_NAMESPACE
-}  // namespace firstray
+}  // namespace firstray::inline v0
 HWY_AFTER_NAMESPACE();
 
 #endif  // include guard per instruction set

@@ -6,7 +6,7 @@
 #include "engine/grid/entry_kernels.h"
 #include "engine/primitive/triangle_box.h"
 
-namespace firstray {
+namespace firstray::inline v0 {
 namespace {
 
 using Reference = BinScratch::Reference;
@@ -177,4 +177,4 @@ bool bin(const Grid& grid, const GridEntries& entries, std::span<const std::uint
     return true;
 }
 
-}  // namespace firstray
+}  // namespace firstray::inline v0

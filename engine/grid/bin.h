@@ -9,7 +9,7 @@
 #include "engine/grid/entries.h"
 #include "engine/grid/grid.h"
 
-namespace firstray {
+namespace firstray::inline v0 {
 
 /// A list of entries for each cell, in one array: cell c's are entries[first[c]] to entries[first[c + 1]], ascending.
 struct CellLists {
@@ -58,4 +58,4 @@ struct BinScratch {
 bool bin(const Grid& grid, const GridEntries& entries, std::span<const std::uint32_t> chosen, std::uint64_t most,
          const Executor* executor, BinScratch& scratch, CellLists& lists);
 
-}  // namespace firstray
+}  // namespace firstray::inline v0

@@ -13,7 +13,7 @@
 #include "engine/grid/visits.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace firstray {
+namespace firstray::inline v0 {
 namespace HWY_NAMESPACE {
 
 /// Which oriented boxes of a pack the ray may meet between two walk ts; entries gets where it enters each.
@@ -180,7 +180,7 @@ private:
 };
 
 }  // namespace HWY_NAMESPACE
-}  // namespace firstray
+}  // namespace firstray::inline v0
 HWY_AFTER_NAMESPACE();
 
 #endif  // include guard per instruction set

@@ -7,7 +7,7 @@
 #include "engine/grid/bin.h"
 #include "engine/grid/resolution.h"
 
-namespace firstray {
+namespace firstray::inline v0 {
 namespace {
 
 /// Cells per item of a grid around items alone.
@@ -175,4 +175,4 @@ Item make_item(std::uint32_t number, const Transform& local_from_root, const Tra
     return item;
 }
 
-}  // namespace firstray
+}  // namespace firstray::inline v0

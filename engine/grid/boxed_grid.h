@@ -10,7 +10,7 @@
 #include "engine/core/transform.h"
 #include "engine/grid/grid.h"
 
-namespace firstray {
+namespace firstray::inline v0 {
 
 /// Maps an oriented box of the root system, widened, to the cube [-1, 1]^3.
 struct CubeMap {
@@ -78,4 +78,4 @@ inline constexpr float box_pad_factor = 0x1p-17f;
 Item make_item(std::uint32_t number, const Transform& local_from_root, const Transform& root_from_local,
                const DAabb& bounds, double wide);
 
-}  // namespace firstray
+}  // namespace firstray::inline v0

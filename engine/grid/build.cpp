@@ -10,7 +10,7 @@
 #include "engine/grid/pack_lists.h"
 #include "engine/grid/resolution.h"
 
-namespace firstray {
+namespace firstray::inline v0 {
 namespace {
 
 /// References per primitive that all levels of grids together may make; resolutions that would make more are lowered.
@@ -319,4 +319,4 @@ std::uint64_t GridStructure::bytes() const
            boxes.capacity() * sizeof(PackBoxes) + quadrics.capacity() * 4;
 }
 
-}  // namespace firstray
+}  // namespace firstray::inline v0

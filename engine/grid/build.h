@@ -8,7 +8,7 @@
 #include "engine/strategy/root_geometry.h"
 #include "engine/strategy/strategy.h"
 
-namespace firstray {
+namespace firstray::inline v0 {
 
 /// What shapes a grid.
 struct GridOptions {
@@ -53,4 +53,4 @@ TopGrid build_top(GridEntries& entries, const GridOptions& options, const Execut
 GridStructure build_voxel(const TopGrid& top, std::uint32_t cell, const GridEntries& entries,
                           const GridOptions& options);
 
-}  // namespace firstray
+}  // namespace firstray::inline v0

@@ -4,7 +4,7 @@
 
 #include "engine/primitive/triangle_pack.h"
 
-namespace firstray {
+namespace firstray::inline v0 {
 namespace {
 
 Aabb rounded_outwards(const DAabb& box)
@@ -100,4 +100,4 @@ template void make_entries(const RootGeometry<double>&, const PrimitiveList&, co
 template GridEntries make_entries(const RootGeometry<float>&, const PrimitiveList&, const Executor*);
 template GridEntries make_entries(const RootGeometry<double>&, const PrimitiveList&, const Executor*);
 
-}  // namespace firstray
+}  // namespace firstray::inline v0

@@ -9,7 +9,7 @@
 #include "engine/core/executor.h"
 #include "engine/strategy/root_geometry.h"
 
-namespace firstray {
+namespace firstray::inline v0 {
 
 /// What is put into grids, in order: triangles in float, then quadrics. An *entry* is an index into these. Corners of
 /// triangles are read where the geometry keeps them, which must outlive this, or are held here.
@@ -47,4 +47,4 @@ GridEntries make_entries(const RootGeometry<Real>& geometry, const PrimitiveList
 void add_triangle(GridEntries& entries, const RootTriangle<float>& triangle, PrimitiveId id, bool transmits);
 void add_quadric(GridEntries& entries, const RootQuadric& quadric);
 
-}  // namespace firstray
+}  // namespace firstray::inline v0

@@ -13,7 +13,7 @@
 #include "engine/primitive/pack_kernels-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace firstray {
+namespace firstray::inline v0 {
 namespace HWY_NAMESPACE {
 
 using Lanes = hn::Vec<PackLanes>;
@@ -322,11 +322,11 @@ void fill_packs_of(const VoxelList& list, const GridEntries& entries, std::span<
 }
 
 }  // namespace HWY_NAMESPACE
-}  // namespace firstray
+}  // namespace firstray::inline v0
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace firstray {
+namespace firstray::inline v0 {
 
 HWY_EXPORT(bounds_of_triangles);
 HWY_EXPORT(ranges_of_triangles);
@@ -388,5 +388,5 @@ void fill_packs(const VoxelList& list, const GridEntries& entries, std::span<con
     HWY_DYNAMIC_DISPATCH(fill_packs_of)(list, entries, triangles, voxel, structure);
 }
 
-}  // namespace firstray
+}  // namespace firstray::inline v0
 #endif  // HWY_ONCE

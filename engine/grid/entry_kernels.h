@@ -7,7 +7,7 @@
 #include "engine/grid/entries.h"
 #include "engine/grid/grid.h"
 
-namespace firstray {
+namespace firstray::inline v0 {
 
 // What building does to every triangle, sixteen at a time. All instruction sets give the same.
 
@@ -66,4 +66,4 @@ void find_ranges(const GridEntries& entries, std::span<const std::uint32_t> tria
 void fill_packs(const VoxelList& list, const GridEntries& entries, std::span<const std::uint32_t> triangles,
                 const Aabb& voxel, GridStructure& structure);
 
-}  // namespace firstray
+}  // namespace firstray::inline v0

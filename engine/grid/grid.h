@@ -11,7 +11,7 @@
 #include "engine/primitive/quadric.h"
 #include "engine/primitive/triangle_pack.h"
 
-namespace firstray {
+namespace firstray::inline v0 {
 
 /// A box cut into equal cells. Cell (x, y, z) is first_cell + x + dims.x * (y + dims.y * z) of its structure's cells.
 struct alignas(16) Grid {
@@ -84,4 +84,4 @@ struct GridStructure {
 /// the overlap test err by at most 16 together.
 inline constexpr float pad_factor = 0x1p-19f;
 
-}  // namespace firstray
+}  // namespace firstray::inline v0

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace firstray {
+namespace firstray::inline v0 {
 namespace {
 
 /// Lists the grids of a structure, from the top down; each one's contents are counted on the way back up.
@@ -92,4 +92,4 @@ void append_outline(const GridStructure& structure, std::span<const CellWord> ce
     OutlineMaker(structure, cells, root_from_structure, out).append_top(std::move(heading));
 }
 
-}  // namespace firstray
+}  // namespace firstray::inline v0

@@ -5,7 +5,7 @@
 #include "engine/grid/grid.h"
 #include "engine/strategy/outline.h"
 
-namespace firstray {
+namespace firstray::inline v0 {
 
 /// Appends a recursive grid, to be looked at: its top grid, then its subgrids, depth first. Nothing where there is no
 /// grid.
@@ -15,4 +15,4 @@ namespace firstray {
 void append_outline(const GridStructure& structure, std::span<const CellWord> cells,
                     const Transform& root_from_structure, StructureBox heading, std::vector<StructureBox>& out);
 
-}  // namespace firstray
+}  // namespace firstray::inline v0

@@ -4,7 +4,7 @@
 
 #include "engine/grid/entry_kernels.h"
 
-namespace firstray {
+namespace firstray::inline v0 {
 namespace {
 
 std::size_t count_triangles(std::span<const std::uint32_t> listed, const GridEntries& entries)
@@ -53,4 +53,4 @@ void fill_list(const VoxelList& list, const ListToFill& to_fill, const GridEntri
         structure.quadrics[list.first_quadric + q] = entries.ids[to_fill.entries[triangles + q]];
 }
 
-}  // namespace firstray
+}  // namespace firstray::inline v0

@@ -4,7 +4,7 @@
 #include "engine/grid/bin.h"
 #include "engine/grid/grid.h"
 
-namespace firstray {
+namespace firstray::inline v0 {
 
 /// A voxel's entries and box, waiting to be put into packs.
 struct ListToFill {
@@ -26,4 +26,4 @@ VoxelList reserve_list(std::span<const std::uint32_t> listed, const GridEntries&
 /// Puts a list's entries into its places, which must exist. Different lists may be filled at the same time.
 void fill_list(const VoxelList& list, const ListToFill& to_fill, const GridEntries& entries, GridStructure& structure);
 
-}  // namespace firstray
+}  // namespace firstray::inline v0

@@ -11,7 +11,7 @@
 #include "engine/primitive/intersect.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace firstray {
+namespace firstray::inline v0 {
 namespace HWY_NAMESPACE {
 
 /// One triangle as BeamTriangles has sixteen.
@@ -173,7 +173,7 @@ HWY_INLINE float reach_of(const BeamRays& rays, const Beam& root, int packet)
 }
 
 }  // namespace HWY_NAMESPACE
-}  // namespace firstray
+}  // namespace firstray::inline v0
 HWY_AFTER_NAMESPACE();
 
 #endif  // include guard per instruction set

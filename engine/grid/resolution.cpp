@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace firstray {
+namespace firstray::inline v0 {
 
 glm::ivec3 choose_grid_dims(const glm::vec3& size, std::size_t prim_count, float density)
 {
@@ -39,4 +39,4 @@ glm::ivec3 choose_grid_dims(const glm::vec3& size, std::size_t prim_count, float
     return rounded;
 }
 
-}  // namespace firstray
+}  // namespace firstray::inline v0

@@ -3,7 +3,7 @@
 
 #include <cstddef>
 
-namespace firstray {
+namespace firstray::inline v0 {
 
 inline constexpr int max_grid_dim = 1024;
 
@@ -18,4 +18,4 @@ inline constexpr int max_grid_dim = 1024;
 ///             T. Ize, P. Shirley, S. Parker, "Grid Creation Strategies for Efficient Ray Tracing", RT 2007
 glm::ivec3 choose_grid_dims(const glm::vec3& size, std::size_t prim_count, float density);
 
-}  // namespace firstray
+}  // namespace firstray::inline v0

@@ -14,7 +14,7 @@
 #include "engine/primitive/intersect.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace firstray {
+namespace firstray::inline v0 {
 namespace HWY_NAMESPACE {
 
 enum class Query { closest, any };
@@ -307,7 +307,7 @@ HWY_INLINE void search_ray(RayTile<Real>& tile, int lane, const Searcher& search
 }
 
 }  // namespace HWY_NAMESPACE
-}  // namespace firstray
+}  // namespace firstray::inline v0
 HWY_AFTER_NAMESPACE();
 
 #endif  // include guard per instruction set

@@ -8,7 +8,7 @@
 #include "engine/grid/beam_search-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace firstray {
+namespace firstray::inline v0 {
 namespace HWY_NAMESPACE {
 
 template <typename Real>
@@ -51,11 +51,11 @@ void any_double(const SearchTarget<double>& target, RayTile<double>& tile)
 }
 
 }  // namespace HWY_NAMESPACE
-}  // namespace firstray
+}  // namespace firstray::inline v0
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace firstray {
+namespace firstray::inline v0 {
 
 HWY_EXPORT(closest_float);
 HWY_EXPORT(closest_double);
@@ -79,5 +79,5 @@ void search_any(const SearchTarget<double>& target, RayTile<double>& tile)
     HWY_DYNAMIC_DISPATCH(any_double)(target, tile);
 }
 
-}  // namespace firstray
+}  // namespace firstray::inline v0
 #endif  // HWY_ONCE

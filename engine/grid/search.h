@@ -4,7 +4,7 @@
 #include "engine/grid/grid.h"
 #include "engine/strategy/root_geometry.h"
 
-namespace firstray {
+namespace firstray::inline v0 {
 
 /// Where rays search.
 template <typename Real>
@@ -20,4 +20,4 @@ void search_closest(const SearchTarget<double>& target, RayTile<double>& tile);
 void search_any(const SearchTarget<float>& target, RayTile<float>& tile);
 void search_any(const SearchTarget<double>& target, RayTile<double>& tile);
 
-}  // namespace firstray
+}  // namespace firstray::inline v0

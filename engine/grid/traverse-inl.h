@@ -10,7 +10,7 @@
 #include "engine/primitive/pack_kernels-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace firstray {
+namespace firstray::inline v0 {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
@@ -90,7 +90,7 @@ HWY_INLINE bool traverse(const Grid& grid, const WalkRay& ray, float t_begin, fl
 }
 
 }  // namespace HWY_NAMESPACE
-}  // namespace firstray
+}  // namespace firstray::inline v0
 HWY_AFTER_NAMESPACE();
 
 #endif  // include guard per instruction set

@@ -1,6 +1,6 @@
 #include "engine/grid/visits.h"
 
-namespace firstray {
+namespace firstray::inline v0 {
 
 Visits& Visits::of_this_thread()
 {
@@ -8,4 +8,4 @@ Visits& Visits::of_this_thread()
     return visits;
 }
 
-}  // namespace firstray
+}  // namespace firstray::inline v0

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace firstray {
+namespace firstray::inline v0 {
 
 /// Which items of boxed grids a ray, or a beam, has been sent into already: never twice into the same. One for each thread.
 class Visits {
@@ -30,4 +30,4 @@ private:
     std::uint64_t ray_ = 0;
 };
 
-}  // namespace firstray
+}  // namespace firstray::inline v0

@@ -12,7 +12,7 @@
 #include "engine/core/errors.h"
 #include "engine/core/pending_file.h"
 
-namespace firstray::image {
+namespace firstray::inline v0::image {
 namespace {
 
 namespace fs = std::filesystem;
@@ -258,4 +258,4 @@ void write_frame(const fs::path& file, const Frame& frame, std::span<const Aov> 
     }
 }
 
-}  // namespace firstray::image
+}  // namespace firstray::inline v0::image

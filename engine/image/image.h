@@ -9,7 +9,7 @@
 #include "engine/render/texture.h"
 #include "engine/scene/scene.h"
 
-namespace firstray::image {
+namespace firstray::inline v0::image {
 
 /// Bounds on pictures read; larger ones are refused by their header, before a pixel is read.
 struct ImageLimits {
@@ -38,4 +38,4 @@ void write_frame(const std::filesystem::path& file, const Frame& frame, std::spa
 /// The bytes of the file that write_frame would write as ".png".
 std::string png_of(const Frame& frame);
 
-}  // namespace firstray::image
+}  // namespace firstray::inline v0::image

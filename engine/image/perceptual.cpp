@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <vector>
 
-namespace firstray::image {
+namespace firstray::inline v0::image {
 namespace {
 
 OIIO::ImageBuf buffer_of(const Frame& frame)
@@ -28,4 +28,4 @@ std::uint64_t perceived_differences(const Frame& a, const Frame& b)
     return static_cast<std::uint64_t>(failed);
 }
 
-}  // namespace firstray::image
+}  // namespace firstray::inline v0::image

@@ -3,7 +3,7 @@
 
 #include "engine/render/frame.h"
 
-namespace firstray::image {
+namespace firstray::inline v0::image {
 
 /// Pixels in which a person would see a difference, by Hector Yee's metric as OpenImageIO has it (an office's light,
 /// the picture 45 degrees wide). As version 2.4.7 computes it, it sees another hue but not another brightness: black
@@ -14,4 +14,4 @@ namespace firstray::image {
 ///         Rendering of Dynamic Environments", ACM Transactions on Graphics 20(1), 2001
 std::uint64_t perceived_differences(const Frame& a, const Frame& b);
 
-}  // namespace firstray::image
+}  // namespace firstray::inline v0::image

@@ -4,7 +4,7 @@
 #include <cassert>
 #include <cmath>
 
-namespace firstray {
+namespace firstray::inline v0 {
 namespace {
 
 /// The rounded sum, and what rounding took away.
@@ -84,4 +84,4 @@ int exact_side(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& origi
     return det.sign();
 }
 
-}  // namespace firstray
+}  // namespace firstray::inline v0

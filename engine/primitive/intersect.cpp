@@ -2,7 +2,7 @@
 
 #include <type_traits>
 
-namespace firstray {
+namespace firstray::inline v0 {
 
 template <typename Real>
 TriangleHit<Real> intersect_precisely(const RootTriangle<Real>& triangle, const SearchRay<Real>& ray,
@@ -18,4 +18,4 @@ template TriangleHit<float> intersect_precisely(const RootTriangle<float>&, cons
 template TriangleHit<double> intersect_precisely(const RootTriangle<double>&, const SearchRay<double>&, Precision,
                                                  double);
 
-}  // namespace firstray
+}  // namespace firstray::inline v0

@@ -13,7 +13,7 @@
 #include "engine/primitive/triangle_pack.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace firstray {
+namespace firstray::inline v0 {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
@@ -180,7 +180,7 @@ HWY_INLINE std::uint32_t boxes_met(const PackBoxes& boxes, const WalkRay& ray, f
 }
 
 }  // namespace HWY_NAMESPACE
-}  // namespace firstray
+}  // namespace firstray::inline v0
 HWY_AFTER_NAMESPACE();
 
 #endif  // include guard per instruction set

@@ -5,7 +5,7 @@
 #include <limits>
 #include <utility>
 
-namespace firstray {
+namespace firstray::inline v0 {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -105,4 +105,4 @@ double intersect(const RootQuadric& placed, const glm::dvec3& origin, const glm:
     return infinity;
 }
 
-}  // namespace firstray
+}  // namespace firstray::inline v0

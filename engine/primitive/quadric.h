@@ -6,7 +6,7 @@
 #include "engine/core/transform.h"
 #include "engine/scene/scene.h"
 
-namespace firstray {
+namespace firstray::inline v0 {
 
 /// A sphere, cone or cylinder as it stands in the root system. Intersected exactly, not tessellated, in double in every
 /// precision (there are few of them, and a root of a quadratic loses half its digits in float).
@@ -36,4 +36,4 @@ Real intersect_rounded(const RootQuadric& quadric, const SearchRay<Real>& ray, R
                                        static_cast<double>(ray.t_min), std::numeric_limits<double>::infinity()));
 }
 
-}  // namespace firstray
+}  // namespace firstray::inline v0

@@ -12,7 +12,7 @@
 #include "engine/primitive/triangle.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace firstray {
+namespace firstray::inline v0 {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
@@ -84,7 +84,7 @@ HWY_INLINE std::uint32_t not_passing(const RootTriangle<Real>& triangle, const R
 }
 
 }  // namespace HWY_NAMESPACE
-}  // namespace firstray
+}  // namespace firstray::inline v0
 HWY_AFTER_NAMESPACE();
 
 #endif  // include guard per instruction set

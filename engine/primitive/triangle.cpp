@@ -2,7 +2,7 @@
 
 #include "engine/primitive/exact.h"
 
-namespace firstray {
+namespace firstray::inline v0 {
 namespace {
 
 RootTriangle<double> widened(const RootTriangle<float>& t)
@@ -80,4 +80,4 @@ bool passes_inside_exactly(const RootTriangle<float>& triangle, const glm::vec3&
     return true;
 }
 
-}  // namespace firstray
+}  // namespace firstray::inline v0

@@ -8,7 +8,7 @@
 /// Inlined into kernels of every instruction set, where it is compiled for that set (but never contracted).
 #define FIRSTRAY_INLINE [[gnu::always_inline]] inline
 
-namespace firstray {
+namespace firstray::inline v0 {
 
 // The one test of a ray and a triangle. Whatever finds hits, a lane of a wide kernel or the loop over everything,
 // computes these expressions in this order, without contraction, in the root system; so all of them get the same bits.
@@ -197,4 +197,4 @@ FIRSTRAY_INLINE TriangleHit<float> intersect(const RootTriangle<float>& triangle
     return hit;
 }
 
-}  // namespace firstray
+}  // namespace firstray::inline v0

@@ -4,7 +4,7 @@
 
 #include "engine/primitive/triangle.h"
 
-namespace firstray {
+namespace firstray::inline v0 {
 
 TriangleBoxOverlap::TriangleBoxOverlap(const glm::vec3& v0, const glm::vec3& v1, const glm::vec3& v2,
                                        const glm::vec3& size)
@@ -50,4 +50,4 @@ bool TriangleBoxOverlap::meets(const glm::vec3& lo) const
     return true;
 }
 
-}  // namespace firstray
+}  // namespace firstray::inline v0

@@ -3,7 +3,7 @@
 
 #include "engine/core/aabb.h"
 
-namespace firstray {
+namespace firstray::inline v0 {
 
 /// The overlap of one triangle and many boxes of one size: what does not depend on the box is computed once.
 /// Conservative: a box that the triangle touches is never denied, given boxes enlarged by more than 16 half ulps of the
@@ -27,4 +27,4 @@ private:
     Edge edges_[3][3];          ///< by projection along axis, by edge
 };
 
-}  // namespace firstray
+}  // namespace firstray::inline v0

@@ -4,7 +4,7 @@
 #include "engine/core/ray_tile.h"
 #include "engine/primitive/triangle.h"
 
-namespace firstray {
+namespace firstray::inline v0 {
 
 inline constexpr int pack_size = 16;
 
@@ -45,4 +45,4 @@ struct alignas(64) PackBoxes {
     float lo[3][pack_size], hi[3][pack_size];
 };
 
-}  // namespace firstray
+}  // namespace firstray::inline v0

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace firstray {
+namespace firstray::inline v0 {
 namespace {
 
 constexpr int block_width = 4;
@@ -97,4 +97,4 @@ void aim(const CameraRays& camera, std::span<const glm::ivec2> pixels, const glm
 template void aim<float>(const CameraRays&, std::span<const glm::ivec2>, const glm::dvec2&, RayTile<float>&);
 template void aim<double>(const CameraRays&, std::span<const glm::ivec2>, const glm::dvec2&, RayTile<double>&);
 
-}  // namespace firstray
+}  // namespace firstray::inline v0

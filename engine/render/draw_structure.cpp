@@ -9,7 +9,7 @@
 
 #include "engine/render/line_layer.h"
 
-namespace firstray {
+namespace firstray::inline v0 {
 namespace {
 
 /// Lines of a picture this high or lower are as thin as can be; those of higher ones are wider in proportion.
@@ -214,4 +214,4 @@ glm::vec3 level_colour(int level)
     return glm::vec3(rgb[0], rgb[1], rgb[2]) / 255.0f;
 }
 
-}  // namespace firstray
+}  // namespace firstray::inline v0

@@ -5,7 +5,7 @@
 #include "engine/render/frame.h"
 #include "engine/strategy/outline.h"
 
-namespace firstray {
+namespace firstray::inline v0 {
 
 /// Draws boxes and the edges of their filled cells over a frame, as in figures 5 to 7 of Lext and Akenine-Moller,
 /// "Towards Rapid Reconstruction for Animated Ray Tracing", 2001: coloured by level, dim where surfaces hide them, over
@@ -22,4 +22,4 @@ glm::vec3 level_colour(int level);
 /// Orange for what was built in this frame, green for what was kept from earlier ones, grey for what is not built.
 glm::vec3 voxel_colour(StructureBox::Voxel state);
 
-}  // namespace firstray
+}  // namespace firstray::inline v0

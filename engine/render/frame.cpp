@@ -2,7 +2,7 @@
 
 #include <bit>
 
-namespace firstray {
+namespace firstray::inline v0 {
 namespace {
 
 // FNV-1a with its 64-bit constants, fed a 32-bit word a step: a byte a step would take as long as tracing some frames.
@@ -26,4 +26,4 @@ std::uint64_t image_hash(const Frame& frame)
     return hash;
 }
 
-}  // namespace firstray
+}  // namespace firstray::inline v0

@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
-namespace firstray {
+namespace firstray::inline v0 {
 namespace {
 
 /// SplitMix64: the same numbers on every platform, which the standard's distributions are not.
@@ -102,4 +102,4 @@ std::span<const glm::ivec2> FramelessTurns::pixels(std::size_t turn) const
     return std::span(pixels_).subspan(begin, end - begin);
 }
 
-}  // namespace firstray
+}  // namespace firstray::inline v0

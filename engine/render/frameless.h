@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-namespace firstray {
+namespace firstray::inline v0 {
 
 /// Deals the pixels of a picture out into turns, for frameless rendering: frame after frame traces the pixels of one
 /// turn and keeps what it has of the others, so that every pixel is at most `turns - 1` frames old.
@@ -22,7 +22,7 @@ public:
     /// throws         std::invalid_argument
     FramelessTurns(int width, int height, int turns, std::uint64_t seed);
 
-    std::size_t count() const { return first_.size() - 1; }
+    std::size_t count() const { return first_.size() - 1; }  ///< of turns
 
     /// The pixels of a turn. Turns repeat: turn `count()` is turn 0 again.
     std::span<const glm::ivec2> pixels(std::size_t turn) const;
@@ -36,4 +36,4 @@ private:
 /// two.
 std::vector<glm::ivec2> hilbert_order(int width, int height);
 
-}  // namespace firstray
+}  // namespace firstray::inline v0

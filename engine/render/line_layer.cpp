@@ -4,7 +4,7 @@
 #include <cmath>
 #include <optional>
 
-namespace firstray {
+namespace firstray::inline v0 {
 namespace {
 
 /// Room around the picture, in pixels, for lines whose middle is outside.
@@ -137,4 +137,4 @@ void LineLayer::cover(std::vector<glm::vec3>& colour) const
     for (std::size_t i = 0; i < inks_.size(); ++i) colour[i] = glm::mix(colour[i], inks_[i].colour, inks_[i].strength);
 }
 
-}  // namespace firstray
+}  // namespace firstray::inline v0

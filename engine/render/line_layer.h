@@ -6,7 +6,7 @@
 #include "engine/render/camera_rays.h"
 #include "engine/render/frame.h"
 
-namespace firstray {
+namespace firstray::inline v0 {
 
 /// How a line is drawn.
 struct Pen {
@@ -53,4 +53,4 @@ inline constexpr double faded_spacing = 4.0, full_spacing = 16.0;
 /// Share of its strength that a line keeps where it is hidden.
 inline constexpr float hidden_share = 0.22f;
 
-}  // namespace firstray
+}  // namespace firstray::inline v0

@@ -6,7 +6,7 @@
 
 #include "engine/strategy/strategy.h"
 
-namespace firstray {
+namespace firstray::inline v0 {
 
 /// For each ray of a tile, the pixel (an index below RayTile::capacity) that it works for.
 using Slots = std::array<std::uint16_t, RayTile<float>::capacity>;
@@ -53,4 +53,4 @@ private:
     std::vector<RayCost> per_ray_, per_slot_;
 };
 
-}  // namespace firstray
+}  // namespace firstray::inline v0

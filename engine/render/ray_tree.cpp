@@ -6,7 +6,7 @@
 
 #include "engine/render/shade.h"
 
-namespace firstray {
+namespace firstray::inline v0 {
 
 template <typename Real>
 RayTree<Real>::RayTree(const Strategy<Real>& strategy, const Pose& pose, std::span<const Texture> textures, int depth,
@@ -148,4 +148,4 @@ auto RayTree<Real>::leaving(const Surface& surface, const glm::dvec3& direction,
 template class RayTree<float>;
 template class RayTree<double>;
 
-}  // namespace firstray
+}  // namespace firstray::inline v0

@@ -8,7 +8,7 @@
 #include "engine/render/shadow_tracer.h"
 #include "engine/render/surface.h"
 
-namespace firstray {
+namespace firstray::inline v0 {
 
 /// Follows the rays that spring from a tile of primary rays, all rays of one depth before the next. For one thread;
 /// owns all buffers, so that tracing allocates nothing once they have grown. Large: keep it on the heap.
@@ -78,4 +78,4 @@ private:
     Generation current_, next_;
 };
 
-}  // namespace firstray
+}  // namespace firstray::inline v0

@@ -10,7 +10,7 @@
 #include "engine/render/camera_rays.h"
 #include "engine/render/ray_tree.h"
 
-namespace firstray {
+namespace firstray::inline v0 {
 namespace {
 
 /// Pixels that a task of render_pixels takes: enough for beams, few enough that a 64th of a picture still makes tasks
@@ -245,4 +245,4 @@ template RayCounts render_pixels<float>(const Strategy<float>&, const Pose&, std
 template RayCounts render_pixels<double>(const Strategy<double>&, const Pose&, std::span<const Texture>,
                                          const RenderOptions&, const Executor&, std::span<const glm::ivec2>, Frame&);
 
-}  // namespace firstray
+}  // namespace firstray::inline v0

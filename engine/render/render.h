@@ -12,7 +12,7 @@
 #include "engine/scene/pose.h"
 #include "engine/strategy/strategy.h"
 
-namespace firstray {
+namespace firstray::inline v0 {
 
 /// What the user chooses about pictures.
 struct RenderOptions {
@@ -24,9 +24,9 @@ struct RenderOptions {
 
 /// How many rays were traced, by kind.
 struct RayCounts {
-    std::uint64_t primary = 0, shadow = 0, reflected = 0, transmitted = 0;
-    std::uint64_t total() const { return primary + shadow + reflected + transmitted; }
-    RayCounts& operator+=(const RayCounts& other);
+    std::uint64_t primary = 0, shadow = 0, reflected = 0, transmitted = 0;              ///< rays
+    std::uint64_t total() const { return primary + shadow + reflected + transmitted; }  ///< of all kinds
+    RayCounts& operator+=(const RayCounts& other);                                      ///< kind by kind
 };
 
 /// Renders the pose that the strategy was last updated to: Whitted's ray tree, tile by tile on the executor's threads.
@@ -49,4 +49,4 @@ RayCounts render_pixels(const Strategy<Real>& strategy, const Pose& pose, std::s
                         const RenderOptions& options, const Executor& executor, std::span<const glm::ivec2> pixels,
                         Frame& frame);
 
-}  // namespace firstray
+}  // namespace firstray::inline v0

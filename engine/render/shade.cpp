@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace firstray {
+namespace firstray::inline v0 {
 namespace {
 
 /// The direction mirrored at the plane of a unit normal, made unit again.
@@ -66,4 +66,4 @@ glm::dvec3 transmitted_direction(const Surface& surface)
     return glm::normalize(eta * surface.direction + (eta * cos_in - std::sqrt(cos_out_squared)) * surface.normal);
 }
 
-}  // namespace firstray
+}  // namespace firstray::inline v0

@@ -3,7 +3,7 @@
 
 #include "engine/render/surface.h"
 
-namespace firstray {
+namespace firstray::inline v0 {
 
 // The shading rule: Whitted's, with Phong's highlight about the mirrored light.
 //
@@ -36,4 +36,4 @@ glm::dvec3 reflected_direction(const Surface& surface);
 /// mirrored where the reflection is total.
 glm::dvec3 transmitted_direction(const Surface& surface);
 
-}  // namespace firstray
+}  // namespace firstray::inline v0

@@ -4,7 +4,7 @@
 
 #include "engine/render/shade.h"
 
-namespace firstray {
+namespace firstray::inline v0 {
 namespace {
 
 bool transmits_anywhere(const Scene& scene)
@@ -105,4 +105,4 @@ void ShadowTracer<Real>::keep(int to, int from)
 template class ShadowTracer<float>;
 template class ShadowTracer<double>;
 
-}  // namespace firstray
+}  // namespace firstray::inline v0

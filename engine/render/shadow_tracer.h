@@ -5,7 +5,7 @@
 #include "engine/render/metered_search.h"
 #include "engine/render/surface.h"
 
-namespace firstray {
+namespace firstray::inline v0 {
 
 /// Finds how much of a light reaches surfaces, a tile at a time. Shadow rays run from the light (t = 0) to the surface
 /// (t = 1), so that a tile of them has a common apex. Large: keep it on the heap.
@@ -45,4 +45,4 @@ private:
     Visibility visibility_;
 };
 
-}  // namespace firstray
+}  // namespace firstray::inline v0

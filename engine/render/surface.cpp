@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace firstray {
+namespace firstray::inline v0 {
 namespace {
 
 /// Colour of a triangle's texture at barycentric weights; white where it has none.
@@ -71,4 +71,4 @@ Surface surface_at(const Pose& pose, std::span<const Texture> textures, const Ra
     return s;
 }
 
-}  // namespace firstray
+}  // namespace firstray::inline v0

@@ -10,7 +10,7 @@
 #include "engine/render/texture.h"
 #include "engine/scene/pose.h"
 
-namespace firstray {
+namespace firstray::inline v0 {
 
 inline double largest_coordinate(const glm::dvec3& p)
 {
@@ -79,4 +79,4 @@ glm::dvec3 end_of_shadow_ray(const Surface& surface, const glm::dvec3& light)
     return surface.point + self_hit_margin<Real> * extent * surface.geometric;
 }
 
-}  // namespace firstray
+}  // namespace firstray::inline v0

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace firstray {
+namespace firstray::inline v0 {
 namespace {
 
 /// The fraction of a coordinate, in [0, 1]: a tiny negative one rounds to 1, an infinite one has none and gives 0.
@@ -37,4 +37,4 @@ glm::vec3 Texture::sample(glm::vec2 uv) const
            (1.0f / 255.0f);
 }
 
-}  // namespace firstray
+}  // namespace firstray::inline v0

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace firstray {
+namespace firstray::inline v0 {
 
 /// An RGB picture of bytes, rows from the top of the file.
 struct Texture {
@@ -16,4 +16,4 @@ struct Texture {
     glm::vec3 sample(glm::vec2 uv) const;
 };
 
-}  // namespace firstray
+}  // namespace firstray::inline v0

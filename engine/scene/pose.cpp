@@ -5,7 +5,7 @@
 #include <cmath>
 #include <span>
 
-namespace firstray {
+namespace firstray::inline v0 {
 namespace {
 
 /// The two keys between which a time lies, and how far between them.
@@ -34,6 +34,11 @@ Between keys_at(const Scene& scene, const DeformingTriangle& triangle, double ti
     return {&keys.back(), &keys.back(), 0.0};
 }
 
+bool has_keys(const Group& group)
+{
+    return group.deforming && !group.live;
+}
+
 const DeformingTriangle& deforming_triangle(const Scene& scene, const Group& group, std::uint32_t index)
 {
     return scene.deforming[group.first_deforming + index];
@@ -58,10 +63,11 @@ bool carry(const Pose& pose, const Group& group, glm::vec<3, Real, glm::defaultp
     const auto check = [&](const Vec* points, std::size_t count) {
         if (!are_finite(points, count)) all_finite.store(false, std::memory_order_relaxed);
     };
-    if (!group.deforming) {
+    if (!has_keys(group)) {
         for_pieces(executor, group.vertices, grain, [&](std::size_t begin, std::size_t end) {
-            const glm::dvec3* const positions = scene.positions.data() + group.first_vertex;
-            for (std::size_t i = begin; i < end; ++i) out[i] = Vec(root_from_node.point(positions[i]));
+            const auto first = group.first_vertex + static_cast<std::uint32_t>(begin);
+            for (std::size_t i = begin; i < end; ++i)
+                out[i] = Vec(root_from_node.point(scene.position(first + static_cast<std::uint32_t>(i - begin))));
             check(out + begin, end - begin);
         });
         return all_finite;
@@ -206,13 +212,13 @@ std::array<glm::dvec3, 3> triangle_corners(const Pose& pose, PrimitiveId id)
     const Group& group = scene.group(id);
     const Transform& root_from_node = pose.root_from_node[group.node];
     std::array<glm::dvec3, 3> corners;
-    if (group.deforming) {
+    if (has_keys(group)) {
         const Between keys = keys_at(scene, deforming_triangle(scene, group, id - group.first), pose.time);
         for (int k = 0; k < 3; ++k) corners[static_cast<std::size_t>(k)] = root_from_node.point(keys.position(k));
         return corners;
     }
     const glm::uvec3& vertex = scene.triangles[scene.triangle_slot(id)].vertex;
-    for (int k = 0; k < 3; ++k) corners[static_cast<std::size_t>(k)] = root_from_node.point(scene.positions[vertex[k]]);
+    for (int k = 0; k < 3; ++k) corners[static_cast<std::size_t>(k)] = root_from_node.point(scene.position(vertex[k]));
     return corners;
 }
 
@@ -222,7 +228,7 @@ glm::dvec3 shading_normal(const Pose& pose, PrimitiveId id, double u, double v, 
     const Group& group = scene.group(id);
     const double weight[3] = {1.0 - u - v, u, v};
     glm::dvec3 normal(0.0);  // in the node's system
-    if (group.deforming) {
+    if (has_keys(group)) {
         const Between keys = keys_at(scene, deforming_triangle(scene, group, id - group.first), pose.time);
         for (int k = 0; k < 3; ++k) normal += weight[k] * keys.normal(k);
     } else {
@@ -249,4 +255,4 @@ glm::dvec3 quadric_normal(const Pose& pose, PrimitiveId id, const glm::dvec3& po
     return unit(normals * gradient, normals[2]);  // a cone's tip has no normal: its axis
 }
 
-}  // namespace firstray
+}  // namespace firstray::inline v0

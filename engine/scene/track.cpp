@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace firstray {
+namespace firstray::inline v0 {
 namespace {
 
 /// Where a time falls: segment i joins keys i + 1 and i + 2; s in [0, 1].
@@ -185,4 +185,4 @@ bool Animation::visible_at(double time) const
     return visible;
 }
 
-}  // namespace firstray
+}  // namespace firstray::inline v0

@@ -6,14 +6,14 @@
 
 #include "engine/core/transform.h"
 
-namespace firstray {
+namespace firstray::inline v0 {
 
 /// One key of a spline as the file gives it: Kochanek-Bartels tension, continuity, bias.
 struct Key {
-    double time = 0.0;
+    double time = 0.0;      ///< seconds
     glm::dvec3 value{0.0};  ///< translation, scale or rotation axis (as written, perhaps not of unit length)
     double angle = 0.0;     ///< rotations: degrees
-    double tension = 0.0, continuity = 0.0, bias = 0.0;
+    double tension = 0.0, continuity = 0.0, bias = 0.0;  ///< 0: Catmull-Rom
 };
 
 /// A spline through keys 1 to n-2; the first and last key only shape the tangents. Outside it the end value is held.
@@ -23,9 +23,9 @@ public:
     VectorTrack() = default;
     /// keys  none, or at least 4
     explicit VectorTrack(std::vector<Key> keys) : keys_(std::move(keys)) {}
-    bool empty() const { return keys_.empty(); }
-    const std::vector<Key>& keys() const { return keys_; }
-    glm::dvec3 at(double time) const;
+    bool empty() const { return keys_.empty(); }            ///< without keys
+    const std::vector<Key>& keys() const { return keys_; }  ///< as given
+    glm::dvec3 at(double time) const;                       ///< held outside the keys
 
 private:
     std::vector<Key> keys_;
@@ -35,10 +35,10 @@ private:
 class RotationTrack {
 public:
     RotationTrack() = default;
-    explicit RotationTrack(std::vector<Key> keys);
-    bool empty() const { return keys_.empty(); }
-    const std::vector<Key>& keys() const { return keys_; }
-    glm::dmat3 at(double time) const;
+    explicit RotationTrack(std::vector<Key> keys);          ///< none, or at least 4
+    bool empty() const { return keys_.empty(); }            ///< without keys
+    const std::vector<Key>& keys() const { return keys_; }  ///< as given
+    glm::dmat3 at(double time) const;                       ///< held outside the keys
 
 private:
     struct Segment {
@@ -48,17 +48,18 @@ private:
     std::vector<Segment> segments_;
 };
 
+/// From `time` on, something is visible or not.
 struct VisibilityKey {
-    double time = 0.0;
-    bool visible = true;
+    double time = 0.0;    ///< seconds
+    bool visible = true;  ///< from then on
 };
 
 /// What a `k` block says of one name. Missing tracks are the identity.
 struct Animation {
-    std::string name;
-    VectorTrack translation, scale;
-    RotationTrack rotation;
-    std::vector<VisibilityKey> visibility;
+    std::string name;                       ///< the transform's, light's or camera's
+    VectorTrack translation, scale;         ///< parent from node
+    RotationTrack rotation;                 ///< parent from node
+    std::vector<VisibilityKey> visibility;  ///< ascending
 
     /// parent_from_node at `time`: translation * rotation * scale.
     Transform at(double time) const;
@@ -66,4 +67,4 @@ struct Animation {
     bool visible_at(double time) const;
 };
 
-}  // namespace firstray
+}  // namespace firstray::inline v0

@@ -7,7 +7,7 @@
 #include "engine/grid/outline.h"
 #include "engine/grid/search.h"
 
-namespace firstray {
+namespace firstray::inline v0 {
 namespace {
 
 template <typename Real>
@@ -74,4 +74,4 @@ std::unique_ptr<Strategy<Real>> make_grid(const Scene& scene, const StrategyOpti
 template std::unique_ptr<Strategy<float>> make_grid(const Scene&, const StrategyOptions&);
 template std::unique_ptr<Strategy<double>> make_grid(const Scene&, const StrategyOptions&);
 
-}  // namespace firstray
+}  // namespace firstray::inline v0

@@ -5,7 +5,7 @@
 #include "engine/primitive/quadric.h"
 #include "engine/scene/pose.h"
 
-namespace firstray {
+namespace firstray::inline v0 {
 namespace {
 
 /// Poses of the animation at which moving things are looked up.
@@ -19,29 +19,39 @@ bool is_finite(const glm::dvec3& p)
     return std::isfinite(p.x + p.y + p.z);
 }
 
+DAabb bounds_of(const Scene& scene, const Group& group)
+{
+    DAabb box;
+    const auto grow = [&](const glm::dvec3& p) {
+        if (is_finite(p)) box.grow(p);
+    };
+    if (group.deforming && !group.live) {
+        for (std::uint32_t i = 0; i < group.triangles; ++i) {
+            const DeformingTriangle& triangle = scene.deforming[group.first_deforming + i];
+            for (std::uint32_t key = 0; key < triangle.keys; ++key)
+                for (const glm::dvec3& p : scene.deforming_keys[triangle.first_key + key].position) grow(p);
+        }
+    } else {
+        for (std::uint32_t i = 0; i < group.vertices; ++i) grow(scene.position(group.first_vertex + i));
+    }
+    for (std::uint32_t i = 0; i < group.quadrics; ++i)
+        box.grow(place_quadric(scene.quadrics[group.first_quadric + i], {}, 0, false).bounds);
+    return box;
+}
+
 }  // namespace
 
 std::vector<DAabb> group_bounds(const Scene& scene)
 {
     std::vector<DAabb> bounds;
-    for (const Group& group : scene.groups) {
-        DAabb& box = bounds.emplace_back();
-        const auto grow = [&](const glm::dvec3& p) {
-            if (is_finite(p)) box.grow(p);
-        };
-        if (group.deforming) {
-            for (std::uint32_t i = 0; i < group.triangles; ++i) {
-                const DeformingTriangle& triangle = scene.deforming[group.first_deforming + i];
-                for (std::uint32_t key = 0; key < triangle.keys; ++key)
-                    for (const glm::dvec3& p : scene.deforming_keys[triangle.first_key + key].position) grow(p);
-            }
-        } else {
-            for (std::uint32_t i = 0; i < group.vertices; ++i) grow(scene.positions[group.first_vertex + i]);
-        }
-        for (std::uint32_t i = 0; i < group.quadrics; ++i)
-            box.grow(place_quadric(scene.quadrics[group.first_quadric + i], {}, 0, false).bounds);
-    }
+    for (const Group& group : scene.groups) bounds.push_back(bounds_of(scene, group));
     return bounds;
+}
+
+void follow_live_groups(const Scene& scene, std::span<DAabb> bounds)
+{
+    for (std::size_t i = 0; i < scene.groups.size(); ++i)
+        if (scene.groups[i].live) bounds[i] = bounds_of(scene, scene.groups[i]);
 }
 
 DAabb transformed(const DAabb& box, const Transform& transform)
@@ -86,4 +96,4 @@ GridEntries scenery_entries(const RootGeometry<Real>& geometry, const Aabb& move
 template GridEntries scenery_entries(const RootGeometry<float>&, const Aabb&, const Executor*);
 template GridEntries scenery_entries(const RootGeometry<double>&, const Aabb&, const Executor*);
 
-}  // namespace firstray
+}  // namespace firstray::inline v0

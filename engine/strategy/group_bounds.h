@@ -6,11 +6,15 @@
 #include "engine/grid/entries.h"
 #include "engine/scene/scene.h"
 
-namespace firstray {
+namespace firstray::inline v0 {
 
-/// By group: a box in the system of the group's node around its primitives, at all times where they deform. Empty where
-/// a group holds nothing finite.
+/// By group: a box in the system of the group's node around its primitives, at all times where they deform, as they are
+/// now where they are live. Empty where a group holds nothing finite.
 std::vector<DAabb> group_bounds(const Scene& scene);
+
+/// Brings the boxes of live groups to where their vertices are now.
+/// bounds  group_bounds(scene)
+void follow_live_groups(const Scene& scene, std::span<DAabb> bounds);
 
 /// A box in the root system around the places of all groups but the scenery, at times spread over the animation.
 /// bounds  group_bounds(scene)
@@ -25,4 +29,4 @@ GridEntries scenery_entries(const RootGeometry<Real>& geometry, const Aabb& move
 /// An axis-aligned box around a transformed one.
 DAabb transformed(const DAabb& box, const Transform& transform);
 
-}  // namespace firstray
+}  // namespace firstray::inline v0

@@ -3,7 +3,7 @@
 #include "engine/strategy/list_search.h"
 #include "engine/strategy/root_geometry.h"
 
-namespace firstray {
+namespace firstray::inline v0 {
 namespace {
 
 template <typename Real>
@@ -39,4 +39,4 @@ std::unique_ptr<Strategy<Real>> make_list(const Scene& scene, const StrategyOpti
 template std::unique_ptr<Strategy<float>> make_list(const Scene&, const StrategyOptions&);
 template std::unique_ptr<Strategy<double>> make_list(const Scene&, const StrategyOptions&);
 
-}  // namespace firstray
+}  // namespace firstray::inline v0

@@ -12,7 +12,7 @@
 #include "engine/primitive/triangle_pack.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace firstray {
+namespace firstray::inline v0 {
 namespace HWY_NAMESPACE {
 
 /// The rays of a tile that can meet anything, packed, with the best hit of each.
@@ -115,11 +115,11 @@ void list_double(const RootGeometry<double>& geometry, Precision precision, bool
 }
 
 }  // namespace HWY_NAMESPACE
-}  // namespace firstray
+}  // namespace firstray::inline v0
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace firstray {
+namespace firstray::inline v0 {
 
 HWY_EXPORT(list_float);
 HWY_EXPORT(list_double);
@@ -133,5 +133,5 @@ void search_list(const RootGeometry<double>& geometry, Precision precision, bool
     HWY_DYNAMIC_DISPATCH(list_double)(geometry, precision, any, tile);
 }
 
-}  // namespace firstray
+}  // namespace firstray::inline v0
 #endif  // HWY_ONCE

@@ -7,10 +7,11 @@
 
 #include "engine/core/transform.h"
 
-namespace firstray {
+namespace firstray::inline v0 {
 
 /// A grid or a box of a structure as it stands now, for people to look at: printed by `info`, drawn by `render`.
 struct StructureBox {
+    /// What it is.
     enum class Kind : std::uint8_t {
         grid,       ///< holds primitives, in the root system
         box,        ///< an oriented box that holds the primitives of a transform
@@ -23,7 +24,7 @@ struct StructureBox {
         kept,    ///< built before
         unbuilt  ///< no ray has entered it
     };
-    Kind kind = Kind::grid;
+    Kind kind = Kind::grid;                     ///< what it is
     std::string name{};                         ///< the transform's, or what the box is, e.g. "scenery"
     int level = 0;                              ///< 0: outermost; what is inside stands behind it, one level deeper
     Transform root_from_box{};                  ///< maps the unit cube [0, 1]^3 onto the box
@@ -31,7 +32,7 @@ struct StructureBox {
     std::uint64_t primitives = 0;               ///< in it, each once
     std::uint64_t references = 0;               ///< listings of them in its voxels, subgrids included
     std::vector<std::uint32_t> filled_cells{};  ///< voxels that are not empty: x + dims.x * (y + dims.y * z), ascending
-    std::vector<Voxel> states{};  ///< of filled_cells; empty where everything is built by the update
+    std::vector<Voxel> states{};                ///< of filled_cells; empty where everything is built by the update
 
     /// Lengths of the box's edges, root units.
     glm::dvec3 size() const
@@ -41,4 +42,4 @@ struct StructureBox {
     }
 };
 
-}  // namespace firstray
+}  // namespace firstray::inline v0

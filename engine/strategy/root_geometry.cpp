@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numeric>
 
-namespace firstray {
+namespace firstray::inline v0 {
 namespace {
 
 bool has_finite_corners(const auto& triangle)
@@ -32,8 +32,8 @@ RootGeometry<Real>::RootGeometry(const Scene& scene)
       is_finite_(scene.groups.size()),
       was_listed_(scene.groups.size())
 {
-    vertices_.reserve(scene.positions.size() + 1);
-    vertices_.resize(scene.positions.size());
+    vertices_.reserve(scene.vertex_count() + 1);
+    vertices_.resize(scene.vertex_count());
     corners_.resize(scene.primitive_count());
     for (const Part& part : scene.parts) {
         const Group& group = scene.groups[part.group];
@@ -87,7 +87,7 @@ void RootGeometry<Real>::update_on_touch(const Pose& pose)
         const Transform& stands = pose.root_from_node[group.node];
         const bool is_there = pose.is_visible(group);
         const bool same = stood_[i].linear == stands.linear && stood_[i].offset == stands.offset &&
-                          is_there_[i] == is_there && !(group.deforming && time_ != pose.time);
+                          is_there_[i] == is_there && !(group.deforming && (group.live || time_ != pose.time));
         moved_[i] = is_first || !same;
         is_there_[i] = is_there;
         stood_[i] = stands;
@@ -174,4 +174,4 @@ std::uint64_t RootGeometry<Real>::bytes() const
 template class RootGeometry<float>;
 template class RootGeometry<double>;
 
-}  // namespace firstray
+}  // namespace firstray::inline v0

@@ -9,7 +9,7 @@
 #include "engine/primitive/triangle.h"
 #include "engine/scene/pose.h"
 
-namespace firstray {
+namespace firstray::inline v0 {
 
 /// Ids, each list ascending.
 struct PrimitiveList {
@@ -93,7 +93,7 @@ private:
 
     const Scene& scene_;
     const Pose* pose_ = nullptr;               ///< for groups that are carried when touched
-    mutable RawVector<Vec> vertices_;          ///< by index in Scene::positions
+    mutable RawVector<Vec> vertices_;          ///< by number, as Scene::position
     mutable std::vector<RootQuadric> placed_;  ///< by index in Scene::quadrics
     RawVector<glm::uvec3> corners_;  ///< by PrimitiveId: of a triangle, into vertices_; of a quadric, x: into placed_
     std::vector<std::uint8_t> transmits_;                ///< by PrimitiveId
@@ -107,4 +107,4 @@ private:
     PrimitiveList visible_;
 };
 
-}  // namespace firstray
+}  // namespace firstray::inline v0

@@ -11,25 +11,25 @@
 #include "engine/scene/pose.h"
 #include "engine/strategy/outline.h"
 
-namespace firstray {
+namespace firstray::inline v0 {
 
 /// What a strategy that chooses between lists and grids, place by place, has chosen; what that took by its own model,
 /// and what the best choice in hindsight would have. A place counts from when it came to be: what moves, since the
 /// update; what stands, since the first.
 struct ChoiceReport {
-    bool is_made = false;  ///< the strategy chooses
+    bool is_made = false;                                 ///< the strategy chooses
     std::uint64_t lists = 0, grids = 0, not_entered = 0;  ///< places
     double spent_ms = 0.0, hindsight_ms = 0.0;            ///< summed over threads
 
-    double ratio() const { return hindsight_ms > 0.0 ? spent_ms / hindsight_ms : 1.0; }
+    double ratio() const { return hindsight_ms > 0.0 ? spent_ms / hindsight_ms : 1.0; }  ///< 1 is best
 };
 
 /// What a structure consists of and what it took. Counts are totals after update, lazily built parts included.
 struct StructureReport {
-    std::uint64_t grids = 0;     ///< top grids and supergrids
-    std::uint64_t subgrids = 0;  ///< grids inside voxels
-    std::uint64_t voxels = 0;    ///< cells of all grids
-    std::uint64_t filled_voxels = 0;
+    std::uint64_t grids = 0;           ///< top grids and supergrids
+    std::uint64_t subgrids = 0;        ///< grids inside voxels
+    std::uint64_t voxels = 0;          ///< cells of all grids
+    std::uint64_t filled_voxels = 0;   ///< those that list something
     std::uint64_t built_voxels = 0;    ///< lazy: of the filled ones of top grids, those that a ray has had built by now
     std::uint64_t kept_voxels = 0;     ///< lazy: of those, built in earlier frames
     std::uint64_t dropped_voxels = 0;  ///< lazy: given up by the last update, because what is in them moved
@@ -39,10 +39,10 @@ struct StructureReport {
     std::uint64_t bytes = 0;           ///< held now, vertices in the root system included
     std::uint64_t peak_bytes = 0;      ///< most held at once since the strategy was made, building included
     std::uint64_t depth = 0;           ///< levels of grids, 1 without subgrids
-    std::uint64_t largest_list = 0;
-    std::uint64_t regridded = 0;  ///< primitives that the last update put into grids
-    double lazy_build_ms = 0.0;   ///< spent building while rays flew, summed over threads, since update
-    ChoiceReport choices;
+    std::uint64_t largest_list = 0;    ///< primitives in one voxel
+    std::uint64_t regridded = 0;       ///< primitives that the last update put into grids
+    double lazy_build_ms = 0.0;        ///< spent building while rays flew, summed over threads, since update
+    ChoiceReport choices;              ///< between lists and grids
 };
 
 /// A way to find hits in an animated scene. update() runs alone; between two updates any number of threads may search.
@@ -61,7 +61,7 @@ public:
     virtual void closest(RayTile<Real>& rays) const = 0;
     /// Finds out whether each ray meets anything: primitive is set to one that it meets, or no_primitive.
     virtual void occluded(RayTile<Real>& rays) const = 0;
-    virtual StructureReport report() const = 0;
+    virtual StructureReport report() const = 0;  ///< as things are now
     /// The boxes and grids as they stand since the last update, outer before inner; none where there is nothing to
     /// show.
     virtual std::vector<StructureBox> outline() const { return {}; }
@@ -69,14 +69,14 @@ public:
 
 /// What the user chooses about structures; each field has a flag of the command.
 struct StrategyOptions {
-    Precision precision = Precision::robust;
-    float grid_density = 0.0f;  ///< cells of the top grid per primitive, > 0; 0 means the default
-    int max_list = 0;           ///< primitives in a voxel above which it gets a subgrid, >= 1; 0: the default
+    Precision precision = Precision::robust;  ///< of the test
+    float grid_density = 0.0f;                ///< cells of the top grid per primitive, > 0; 0 means the default
+    int max_list = 0;                    ///< primitives in a voxel above which it gets a subgrid, >= 1; 0: the default
     std::uint64_t structure_budget = 0;  ///< bytes that may be built while rays fly, and held; 0: no limit
-    int grid_depth = 3;         ///< levels of grids, >= 1; 1 means no subgrids
+    int grid_depth = 3;                  ///< levels of grids, >= 1; 1 means no subgrids
     std::vector<std::pair<std::string, std::string>> own{};  ///< what one strategy alone knows: flag, e.g. "obb-top",
                                                              ///< and word
     const Executor* executor = nullptr;  ///< runs updates; must outlive the strategy; null: one thread
 };
 
-}  // namespace firstray
+}  // namespace firstray::inline v0

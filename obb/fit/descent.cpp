@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-namespace firstray::obb {
+namespace firstray::inline v0::obb {
 namespace {
 
 /// A simplex of four turns about a start, ordered by cost.
@@ -80,4 +80,4 @@ Frame descend(const NearPoints& points, const Frame& start, const Descent& how)
     return simplex.best();
 }
 
-}  // namespace firstray::obb
+}  // namespace firstray::inline v0::obb

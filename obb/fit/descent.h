@@ -1,7 +1,7 @@
 #pragma once
 #include "obb/fit/near_points.h"
 
-namespace firstray::obb {
+namespace firstray::inline v0::obb {
 
 /// How a search downhill begins and ends.
 struct Descent {
@@ -15,4 +15,4 @@ struct Descent {
 /// no worse
 Frame descend(const NearPoints& points, const Frame& start, const Descent& how);
 
-}  // namespace firstray::obb
+}  // namespace firstray::inline v0::obb

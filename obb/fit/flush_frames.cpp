@@ -5,7 +5,7 @@
 #include <limits>
 #include <numbers>
 
-namespace firstray::obb {
+namespace firstray::inline v0::obb {
 namespace {
 
 /// Of the half turn that a side flush with one edge can make, with few edges and with more.
@@ -85,4 +85,4 @@ std::vector<Frame> flush_frames(const PointSet& points, const glm::dmat3& axes, 
     return frames;
 }
 
-}  // namespace firstray::obb
+}  // namespace firstray::inline v0::obb

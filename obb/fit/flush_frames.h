@@ -3,7 +3,7 @@
 
 #include "obb/fit/frame.h"
 
-namespace firstray::obb {
+namespace firstray::inline v0::obb {
 
 /// Frames with two neighbouring sides that each lie flush with an edge of the points' hull, as a smallest box has:
 /// while contacts stay the same, the area's second derivative by a turn about one of the box's axes is negative
@@ -15,4 +15,4 @@ namespace firstray::obb {
 /// source   for the volume: J. O'Rourke, "Finding Minimal Enclosing Boxes", 1985
 std::vector<Frame> flush_frames(const PointSet& points, const glm::dmat3& axes, std::size_t count);
 
-}  // namespace firstray::obb
+}  // namespace firstray::inline v0::obb

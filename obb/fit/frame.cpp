@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace firstray::obb {
+namespace firstray::inline v0::obb {
 
 glm::dvec3 any_perpendicular(const glm::dvec3& v)
 {
@@ -48,4 +48,4 @@ glm::dvec3 turn_range(const glm::dvec3& size)
     return {range(size.y, size.z), range(size.z, size.x), range(size.x, size.y)};
 }
 
-}  // namespace firstray::obb
+}  // namespace firstray::inline v0::obb

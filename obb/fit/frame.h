@@ -3,7 +3,7 @@
 
 #include "obb/fit/point_set.h"
 
-namespace firstray::obb {
+namespace firstray::inline v0::obb {
 
 /// A box's axes (columns: orthonormal, right-handed) and what the search minimises.
 struct Frame {
@@ -41,4 +41,4 @@ glm::dmat3 turned(const glm::dmat3& axes, const glm::dvec3& turn);
 /// boxes are turned little where that would thicken them much, cubes by up to 45 degrees.
 glm::dvec3 turn_range(const glm::dvec3& size);
 
-}  // namespace firstray::obb
+}  // namespace firstray::inline v0::obb

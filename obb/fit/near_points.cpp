@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-namespace firstray::obb {
+namespace firstray::inline v0::obb {
 namespace {
 
 glm::dmat3 largest_coordinates(const glm::dvec3& limit)
@@ -53,4 +53,4 @@ double NearPoints::cost_along(const glm::dmat3& axes) const
     return cost_of(size);
 }
 
-}  // namespace firstray::obb
+}  // namespace firstray::inline v0::obb

@@ -5,7 +5,7 @@
 
 #include "obb/fit/frame.h"
 
-namespace firstray::obb {
+namespace firstray::inline v0::obb {
 
 /// Those of a set of points that may touch the sides of its box when it is turned a little: few, so costs come quickly.
 class NearPoints {
@@ -25,4 +25,4 @@ private:
     std::array<PointSet, 3> points_;
 };
 
-}  // namespace firstray::obb
+}  // namespace firstray::inline v0::obb

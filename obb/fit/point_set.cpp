@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <numbers>
 
-namespace firstray::obb {
+namespace firstray::inline v0::obb {
 namespace {
 
 constexpr std::size_t few_points = 32;     ///< not worth choosing from
@@ -138,4 +138,4 @@ PointSet outer_points(const PointSet& points, const glm::dmat3& axes)
     return outer;
 }
 
-}  // namespace firstray::obb
+}  // namespace firstray::inline v0::obb

@@ -6,7 +6,7 @@
 
 #include "engine/core/aabb.h"
 
-namespace firstray::obb {
+namespace firstray::inline v0::obb {
 
 /// Points as runs of coordinates, which is what loops over all of them want.
 struct PointSet {
@@ -41,4 +41,4 @@ PointSet extreme_points(const PointSet& points, const glm::dmat3& axes, int dire
 /// the farthest of every small cone. Small sets come back whole.
 PointSet outer_points(const PointSet& points, const glm::dmat3& axes);
 
-}  // namespace firstray::obb
+}  // namespace firstray::inline v0::obb

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-namespace firstray::obb {
+namespace firstray::inline v0::obb {
 namespace {
 
 constexpr double nearly_flush = 0.15;   ///< radians
@@ -118,4 +118,4 @@ Frame slide(const NearPoints& points, const Frame& start)
     return best;
 }
 
-}  // namespace firstray::obb
+}  // namespace firstray::inline v0::obb

@@ -1,7 +1,7 @@
 #pragma once
 #include "obb/fit/near_points.h"
 
-namespace firstray::obb {
+namespace firstray::inline v0::obb {
 
 /// Improves a frame along the valleys of the cost, where descend() stalls: turns the box so that two of the hull's
 /// edges that it nearly touches lie flush with its sides, and stay so.
@@ -9,4 +9,4 @@ namespace firstray::obb {
 /// returns  a frame that is no worse
 Frame slide(const NearPoints& points, const Frame& start);
 
-}  // namespace firstray::obb
+}  // namespace firstray::inline v0::obb

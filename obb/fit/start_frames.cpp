@@ -6,7 +6,7 @@
 
 #include "obb/fit/width_table.h"
 
-namespace firstray::obb {
+namespace firstray::inline v0::obb {
 namespace {
 
 constexpr int sweep_steps = 16;       ///< about each axis: 5 degrees apart at most
@@ -117,4 +117,4 @@ std::vector<Frame> sweep(const PointSet& points, const Frame& start, const glm::
     return frames;
 }
 
-}  // namespace firstray::obb
+}  // namespace firstray::inline v0::obb

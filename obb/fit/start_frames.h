@@ -3,7 +3,7 @@
 
 #include "obb/fit/frame.h"
 
-namespace firstray::obb {
+namespace firstray::inline v0::obb {
 
 /// Frames along the edges and normals of large triangles between points. Compares all pairs: for small sets.
 /// points  at least one
@@ -14,4 +14,4 @@ std::vector<Frame> triangle_frames(const PointSet& points);
 /// points  at least one
 std::vector<Frame> sweep(const PointSet& points, const Frame& start, const glm::dvec3& range, std::size_t count);
 
-}  // namespace firstray::obb
+}  // namespace firstray::inline v0::obb

@@ -3,7 +3,7 @@
 #include <array>
 #include <limits>
 
-namespace firstray::obb {
+namespace firstray::inline v0::obb {
 
 WidthTable::WidthTable(const PointSet& points, const glm::dmat3& axes)
 {
@@ -37,4 +37,4 @@ WidthTable::WidthTable(const PointSet& points, const glm::dmat3& axes)
         }
 }
 
-}  // namespace firstray::obb
+}  // namespace firstray::inline v0::obb

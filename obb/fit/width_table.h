@@ -5,7 +5,7 @@
 
 #include "obb/fit/point_set.h"
 
-namespace firstray::obb {
+namespace firstray::inline v0::obb {
 
 /// How wide a set of points is in any direction, to about 1 %, at a price that does not depend on their number. Widths
 /// on a grid over three faces of a cube are tabulated, in a space where the points' box along `axes` is a cube.
@@ -40,4 +40,4 @@ private:
     std::vector<float> widths_;
 };
 
-}  // namespace firstray::obb
+}  // namespace firstray::inline v0::obb

@@ -88,16 +88,40 @@ TEST_CASE("a command line that cannot be taken is told in one line and exits wit
 
 TEST_CASE("help fits one screen, ends in two examples and exits with 0")
 {
-    for (const std::string command : {"render", "compare", "info", "trace"}) {
+    for (const std::string command : {"", "render", "compare", "info", "trace"}) {
         CAPTURE(command);
-        const Outcome outcome = call({command, "--help"});
+        const Outcome outcome = command.empty() ? call({"--help"}) : call({command, "--help"});
         CHECK(outcome.code == 0);
         CHECK(outcome.err.empty());
-        CHECK(std::count(outcome.out.begin(), outcome.out.end(), '\n') <= 40);
+        CHECK(std::count(outcome.out.begin(), outcome.out.end(), '\n') <= 50);
+        for (const std::string_view line : command::split(outcome.out, '\n')) CHECK(line.size() <= 100);
         const std::string examples = outcome.out.substr(outcome.out.find("Examples:\n") + 10);
         CHECK(std::count(examples.begin(), examples.end(), '\n') == 2);
     }
     CHECK(call({"--version"}).out.starts_with("firstray 0."));
+}
+
+TEST_CASE("options that are seldom used are shown by --help-all, and work without it")
+{
+    for (const std::string command : {"render", "compare", "info", "trace"}) {
+        CAPTURE(command);
+        const Outcome some = call({command, "--help"}), all = call({command, "--help-all"});
+        CHECK(all.code == 0);
+        CHECK(some.out.find("--grid-depth") == std::string::npos);
+        CHECK(all.out.find("--grid-depth") != std::string::npos);
+        CHECK(some.out.find("--help-all") != std::string::npos);
+        CHECK(call({command, "a.aff", "--grid-dept", "2"}).err.find("did you mean --grid-depth?") != std::string::npos);
+    }
+}
+
+TEST_CASE("a command without a scene says what to type next")
+{
+    for (const std::string command : {"render", "compare", "info", "trace"}) {
+        const Outcome outcome = call({command});
+        CHECK(outcome.code == 2);
+        CHECK(outcome.err.starts_with("firstray: " + command + " needs a scene, e.g.: firstray " + command +
+                                      " scenes/everything.aff"));
+    }
 }
 
 TEST_CASE("bad scenes, missing files and frames beyond the end have their own exit codes")
