@@ -1,13 +1,17 @@
 #include "engine/strategy/root_geometry.h"
 
+#include <cmath>
+
+#include "engine/core/search_ray.h"
+
 namespace firstray {
 namespace {
 
-bool has_finite_corners(const auto& triangle)
+bool is_in_range(const auto& triangle)
 {
     for (const auto& corner : triangle.v)
         for (int axis = 0; axis < 3; ++axis)
-            if (!std::isfinite(corner[axis])) return false;
+            if (!(std::abs(static_cast<double>(corner[axis])) <= farthest_place)) return false;
     return true;
 }
 
@@ -139,7 +143,7 @@ void RootGeometry<Real>::list(std::uint32_t index, PrimitiveList& list) const
 {
     const Group& group = scene_.groups[index];
     for (PrimitiveId id = group.first; id < group.first + group.triangles; ++id)
-        if (has_finite_corners(triangle(id))) list.triangles.push_back(id);
+        if (is_in_range(triangle(id))) list.triangles.push_back(id);
     for (PrimitiveId id = group.first + group.triangles; id < group.first + group.primitives(); ++id)
         list.quadrics.push_back(id);
 }
