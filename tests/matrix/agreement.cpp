@@ -80,7 +80,8 @@ void agreement_rows(Matrix& matrix)
         targets.positions.insert(targets.positions.end(), corners.begin(), corners.end());
         const auto make = [&](std::size_t batch) {
             Random random(batch);
-            const glm::dvec3& at = targets.positions[random.below(static_cast<std::uint32_t>(targets.positions.size()))];
+            const glm::dvec3& at =
+                targets.positions[random.below(static_cast<std::uint32_t>(targets.positions.size()))];
             constexpr int count = RayTile<float>::capacity;
             if (batch % 3 == 0) return test::awkward_rays(batch, targets, count);
             // fans: from anywhere near, from a vertex or a cell's corner, from far away
@@ -92,15 +93,16 @@ void agreement_rows(Matrix& matrix)
                                         matrix.part_of(full[i], 5), make);
     }
     for (std::size_t i = 0; i < std::size(all_precisions); ++i)
-        matrix.add({.id = "T2",
-                    .tried = fmt::format("each strategy of ours against list, {} scenes, rays one by one and from common "
-                                         "apexes at vertices, edges and corners of cells; t, u, v, id and occlusion, {}",
-                                         scenes, name_of(all_precisions[i])),
-                    .n = sum[i].rays,
-                    .result = fmt::format("{} of {} hits differ", sum[i].different, sum[i].hits),
-                    .target = "0",
-                    .met = sum[i].different == 0 && sum[i].hits > sum[i].rays / 100,
-                    .known_miss = {}});
+        matrix.add(
+            {.id = "T2",
+             .tried = fmt::format("each strategy of ours against list, {} scenes, rays one by one and from common "
+                                  "apexes at vertices, edges and corners of cells; t, u, v, id and occlusion, {}",
+                                  scenes, name_of(all_precisions[i])),
+             .n = sum[i].rays,
+             .result = fmt::format("{} of {} hits differ", sum[i].different, sum[i].hits),
+             .target = "0",
+             .met = sum[i].different == 0 && sum[i].hits > sum[i].rays / 100,
+             .known_miss = {}});
 }
 
 }  // namespace firstray::matrix

@@ -1,5 +1,5 @@
-// T18 to T20: what `firstray compare` tells of precision and frameless rendering has its accuracy beside it; what robust
-// costs over fast.
+// T18 to T20: what `firstray compare` tells of precision and frameless rendering has its accuracy beside it; what
+// robust costs over fast.
 #include <fmt/format.h>
 
 #include <map>
@@ -48,9 +48,10 @@ void trade_row(Matrix& matrix, const nlohmann::json& results)
         whole += setting["fault"] == "" && has_accuracy(setting["hits"], setting["image"]);
     }
     matrix.add({.id = "T18",
-                .tried = fmt::format("compare {} --trade: strategies and settings with missed and false hits, error of t, RMSE, "
-                                     "PSNR, largest difference and share of differing pixels beside their times",
-                                     scene),
+                .tried = fmt::format(
+                    "compare {} --trade: strategies and settings with missed and false hits, error of t, RMSE, "
+                    "PSNR, largest difference and share of differing pixels beside their times",
+                    scene),
                 .n = rows,
                 .result = fmt::format("{} of {}", whole, rows),
                 .target = "all",
@@ -70,24 +71,26 @@ void frameless_row(Matrix& matrix, const nlohmann::json& results)
         errors += fmt::format("{}{:.3f}", slash, image["rmse"].get<double>());
         worst += fmt::format("{}{:.3f}", slash, share["worst_rmse"].get<double>());
     }
-    matrix.add({.id = "T20",
-                .tried = "frameless 1, 1/2, 1/4, 1/8, 1/16: pixels of 1 that differ from whole frames; RMSE, worst frame's",
-                .n = pixels,
-                .result = fmt::format("{}; {}, {}", unlike, errors, worst),
-                .target = "0; reported",
-                .met = unlike == 0 && shares == 5,
-                .known_miss = {}});
+    matrix.add(
+        {.id = "T20",
+         .tried = "frameless 1, 1/2, 1/4, 1/8, 1/16: pixels of 1 that differ from whole frames; RMSE, worst frame's",
+         .n = pixels,
+         .result = fmt::format("{}; {}, {}", unlike, errors, worst),
+         .target = "0; reported",
+         .met = unlike == 0 && shares == 5,
+         .known_miss = {}});
 }
 
 /// Milliseconds to trace the frames of a short animation.
 double trace_ms(const std::string& precision, const std::string& strategy, bool is_quick)
 {
     const test::TempFolder folder;
-    const test::Outcome outcome = test::call_line(fmt::format(
-        "render {} --frames 0-45:15 --size {} --depth 1 --strategy {} --precision {} --threads 1 --progress never --stats {} "
-        "--output {}",
-        scene, is_quick ? "80x60" : "480x360", strategy, precision, (folder.path() / "stats.json").string(),
-        (folder.path() / "x.####.png").string()));
+    const test::Outcome outcome =
+        test::call_line(fmt::format("render {} --frames 0-45:15 --size {} --depth 1 --strategy {} --precision {} "
+                                    "--threads 1 --progress never --stats {} "
+                                    "--output {}",
+                                    scene, is_quick ? "80x60" : "480x360", strategy, precision,
+                                    (folder.path() / "stats.json").string(), (folder.path() / "x.####.png").string()));
     if (outcome.code != 0) throw std::runtime_error(outcome.err);
     double ms = 0.0;
     const nlohmann::json stats = test::read_json(folder.path() / "stats.json");
@@ -124,8 +127,9 @@ void cost_rows(Matrix& matrix)
                               least["double"] / least["fast"]);
     }
     matrix.add({.id = "T19",
-                .tried = fmt::format("time to trace four frames of {}, least of {} rounds, one thread: robust (double) over fast",
-                                     scene, rounds),
+                .tried = fmt::format(
+                    "time to trace four frames of {}, least of {} rounds, one thread: robust (double) over fast", scene,
+                    rounds),
                 .n = static_cast<std::uint64_t>(rounds) * 9,
                 .result = ratios,
                 .target = "reported (1.15 was hoped for)",

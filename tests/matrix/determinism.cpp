@@ -18,10 +18,11 @@ constexpr const char* precisions[] = {"robust", "fast", "double"};
 std::string options_of(const std::string& scene, const std::string& strategy, const std::string& precision, int threads,
                        const test::TempFolder& folder)
 {
-    return fmt::format("render {} --frames 0-40:20 --size 120x90 --strategy {} --precision {} --threads {} --progress never "
-                       "--stats {} --output {}",
-                       scene, strategy, precision, threads, (folder.path() / "stats.json").string(),
-                       (folder.path() / "x.####.png").string());
+    return fmt::format(
+        "render {} --frames 0-40:20 --size 120x90 --strategy {} --precision {} --threads {} --progress never "
+        "--stats {} --output {}",
+        scene, strategy, precision, threads, (folder.path() / "stats.json").string(),
+        (folder.path() / "x.####.png").string());
 }
 
 /// The pictures' hashes of a run, in one text; what went wrong if it did.
@@ -71,15 +72,16 @@ void thread_rows(Matrix& matrix, const std::vector<std::string>& scenes)
             different += hashes.size() - 1;
             ++kinds;
         }
-    matrix.add({.id = "T15",
-                .tried = fmt::format("three frames of {} scenes, each precision: each strategy of ours on 1, 2, 5, 16, 64 "
-                                     "threads, each instruction set; hashes of pictures beyond one per precision",
-                                     scenes.size()),
-                .n = 3 * runs,
-                .result = fmt::format("{}", different),
-                .target = "0",
-                .met = different == 0 && kinds > 0,
-                .known_miss = {}});
+    matrix.add(
+        {.id = "T15",
+         .tried = fmt::format("three frames of {} scenes, each precision: each strategy of ours on 1, 2, 5, 16, 64 "
+                              "threads, each instruction set; hashes of pictures beyond one per precision",
+                              scenes.size()),
+         .n = 3 * runs,
+         .result = fmt::format("{}", different),
+         .target = "0",
+         .met = different == 0 && kinds > 0,
+         .known_miss = {}});
 }
 
 void compiler_rows(Matrix& matrix, const std::vector<std::string>& scenes)
@@ -92,8 +94,8 @@ void compiler_rows(Matrix& matrix, const std::vector<std::string>& scenes)
             for (const StrategyEntry& entry : strategies()) {
                 if (entry.peer || !is_there) continue;
                 const std::string strategy(entry.name);
-                different += others_hashes(own, scene, strategy, precision) !=
-                             others_hashes(other, scene, strategy, precision);
+                different +=
+                    others_hashes(own, scene, strategy, precision) != others_hashes(other, scene, strategy, precision);
                 ++runs;
             }
     matrix.add({.id = "T15",
@@ -124,23 +126,27 @@ void embree_rows(Matrix& matrix)
     }
     use_instruction_set("");
     for (const auto& way : ways) way->update(now);
-    const std::uint64_t different = shoot<std::uint64_t>(
-        matrix.executor(), *ways[0], batches, make, [&](const RayTile<float>& first, const std::vector<test::TestRay>& rays) {
-            std::vector<std::uint8_t> differs(rays.size());
-            for (const auto& way : ways) {
-                const auto tile = test::make_tile<float>(rays, 0);
-                way->closest(*tile);
-                for (std::size_t i = 0; i < rays.size(); ++i) differs[i] |= !same_answer(first, *tile, i);
-            }
-            return static_cast<std::uint64_t>(std::count(differs.begin(), differs.end(), 1));
-        });
-    matrix.add({.id = "T15",
-                .tried = "embree, robust: rays whose t, u, v or id depend on the instruction set, or on packets or single rays",
-                .n = batches * 1024,
-                .result = fmt::format("{} ({:.0f} per million)", different,
-                                      1e6 * static_cast<double>(different) / static_cast<double>(batches * 1024)),
-                .target = "reported",
-                .known_miss = {}});
+    const std::uint64_t different =
+        shoot<std::uint64_t>(matrix.executor(), *ways[0], batches, make,
+                             [&](const RayTile<float>& first, const std::vector<test::TestRay>& rays) {
+                                 std::vector<std::uint8_t> differs(rays.size());
+                                 for (const auto& way : ways) {
+                                     const auto tile = test::make_tile<float>(rays, 0);
+                                     way->closest(*tile);
+                                     for (std::size_t i = 0; i < rays.size(); ++i)
+                                         differs[i] |= !same_answer(first, *tile, i);
+                                 }
+                                 return static_cast<std::uint64_t>(std::count(differs.begin(), differs.end(), 1));
+                             });
+    matrix.add(
+        {.id = "T15",
+         .tried =
+             "embree, robust: rays whose t, u, v or id depend on the instruction set, or on packets or single rays",
+         .n = batches * 1024,
+         .result = fmt::format("{} ({:.0f} per million)", different,
+                               1e6 * static_cast<double>(different) / static_cast<double>(batches * 1024)),
+         .target = "reported",
+         .known_miss = {}});
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
-// How far t is off by the distance of a scene from the origin: ours as the reader places scenes, and where vertices stand
-// in the world's coordinates, as Embree wants them.
+// How far t is off by the distance of a scene from the origin: ours as the reader places scenes, and where vertices
+// stand in the world's coordinates, as Embree wants them.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -35,7 +35,8 @@ double true_t(const Scene& scene, PrimitiveId id, const TestRay& ray)
 {
     using Vec = glm::vec<3, long double, glm::defaultp>;
     const glm::uvec3& corner = scene.triangles[id].vertex;
-    const Vec a = Vec(scene.positions[corner.x]) - Vec(scene.origin), b = Vec(scene.positions[corner.y]) - Vec(scene.origin),
+    const Vec a = Vec(scene.positions[corner.x]) - Vec(scene.origin),
+              b = Vec(scene.positions[corner.y]) - Vec(scene.origin),
               c = Vec(scene.positions[corner.z]) - Vec(scene.origin);
     const Vec normal = glm::cross(b - a, c - a);
     return static_cast<double>(glm::dot(normal, a - Vec(ray.origin)) / glm::dot(normal, Vec(ray.direction)));

@@ -70,7 +70,10 @@ std::uint64_t differing(const Scene& scene, const StrategyOptions& options, std:
 
 void drift_rows(Matrix& matrix)
 {
-    const Scene scene = test::moving_scene(3, {.scenery = 20, .clusters = 3, .triangles = 8, .has_deforming = false,
+    const Scene scene = test::moving_scene(3, {.scenery = 20,
+                                               .clusters = 3,
+                                               .triangles = 8,
+                                               .has_deforming = false,
                                                .motions = {test::Motion::rigid, test::Motion::mirrors}});
     const std::uint64_t frames = matrix.part_of(100'000, 2000);
     double most_skew = 0.0;
@@ -95,16 +98,18 @@ void drift_rows(Matrix& matrix)
                 .known_miss = {}});
     std::uint64_t rays = 0, different = 0;
     different += differing<float>(scene, {}, frames / 2, rays);
-    different += differing<double>(scene, {.precision = Precision::double_}, std::max<std::uint64_t>(frames / 20, 800), rays);
-    matrix.add({.id = "T8",
-                .tried = fmt::format("after {} frames forward and backward, hits against those of a strategy made at that "
-                                     "frame, each strategy of ours, robust and double",
-                                     frames),
-                .n = rays,
-                .result = fmt::format("{} differ", different),
-                .target = "0",
-                .met = different == 0,
-                .known_miss = {}});
+    different +=
+        differing<double>(scene, {.precision = Precision::double_}, std::max<std::uint64_t>(frames / 20, 800), rays);
+    matrix.add(
+        {.id = "T8",
+         .tried = fmt::format("after {} frames forward and backward, hits against those of a strategy made at that "
+                              "frame, each strategy of ours, robust and double",
+                              frames),
+         .n = rays,
+         .result = fmt::format("{} differ", different),
+         .target = "0",
+         .met = different == 0,
+         .known_miss = {}});
 }
 
 }  // namespace firstray::matrix

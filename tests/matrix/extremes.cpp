@@ -1,8 +1,8 @@
-// T11: geometry that grids are bad at: everything in one cell, triangles as large as the scene, a stadium around a speck.
+// T11: geometry that grids are bad at: everything in one cell, triangles as large as the scene, a stadium around a
+// speck.
 #include <fmt/format.h>
 
-#include <chrono>
-
+#include "bench/measure/stopwatch.h"
 #include "engine/aff/reader.h"
 #include "scenes/generator/generate.h"
 #include "tests/matrix/shoot.h"
@@ -12,11 +12,6 @@ namespace firstray::matrix {
 namespace {
 
 using test::Random;
-
-double now_in_seconds()
-{
-    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
 
 /// Small triangles in a cube.
 Scene soup(std::uint64_t count, double cube, double size, bool has_far_one)
@@ -56,9 +51,9 @@ Build measure(const Matrix& matrix, const Scene& scene, std::uint64_t batches)
     const StrategyOptions options{.executor = &matrix.executor()};
     {
         const auto grid = find_strategy("grid")->make(scene, options);
-        const double start = now_in_seconds();
+        const Stopwatch watch;
         grid->update(now);
-        result.seconds = now_in_seconds() - start;
+        result.seconds = watch.seconds();
         const StructureReport report = grid->report();
         result.per_primitive = static_cast<double>(report.references) / static_cast<double>(report.primitives);
         result.mebibytes = static_cast<double>(report.peak_bytes) / 0x1p20;
@@ -78,8 +73,9 @@ void add(Matrix& matrix, const std::string& what, const Build& build, double uni
     const double ratio = build.seconds / uniform_seconds;
     const Agreement& agreement = build.agreement;
     matrix.add({.id = "T11",
-                .tried = what + ": grid's build time over that of as many spread evenly, references per primitive, peak "
-                                "MiB; hits of all strategies that are not the list's",
+                .tried = what +
+                         ": grid's build time over that of as many spread evenly, references per primitive, peak "
+                         "MiB; hits of all strategies that are not the list's",
                 .n = agreement.rays,
                 .result = fmt::format("{:.1f}x, {:.1f}, {:.0f}; {}", ratio, build.per_primitive, build.mebibytes,
                                       agreement.different),
@@ -97,11 +93,12 @@ void extreme_rows(Matrix& matrix)
                 fewer = measure(matrix, soup(huge, 1.0, 0.02, false), 4);
     add(matrix, fmt::format("{} triangles, all but one in a millionth of the scene's size", count),
         measure(matrix, soup(count, 1e-6, 1e-8, true), 4), even.seconds, 5.0);
-    add(matrix, fmt::format("{} triangles as large as the scene", huge), measure(matrix, soup(huge, 1.0, 2.0, false), 4),
-        fewer.seconds, 5.0);
+    add(matrix, fmt::format("{} triangles as large as the scene", huge),
+        measure(matrix, soup(huge, 1.0, 2.0, false), 4), fewer.seconds, 5.0);
     const Scene wide = stadium(1e6);
     const Build as_many = measure(matrix, soup(wide.primitive_count(), 1.0, 0.02, false), 4);
-    add(matrix, fmt::format("stadium a million times as large as what stands in it, {} primitives", wide.primitive_count()),
+    add(matrix,
+        fmt::format("stadium a million times as large as what stands in it, {} primitives", wide.primitive_count()),
         measure(matrix, wide, 20), as_many.seconds, 5.0);
 }
 

@@ -11,6 +11,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "bench/measure/stopwatch.h"
 #include "tests/matrix/matrix.h"
 
 using namespace firstray::matrix;
@@ -23,10 +24,10 @@ struct RowGroup {
 };
 
 const RowGroup groups[] = {
-    {"T1", &watertight_rows},  {"T1", &distance_rows},    {"T2", &agreement_rows},  {"T4", &special_ray_rows},
-    {"T5", &scaling_rows},     {"T6", &garbage_rows},     {"T7", &duplicate_rows},  {"T8", &drift_rows},
-    {"T10", &spawned_rows},    {"T11", &extreme_rows},    {"T13", &mutant_rows},    {"T15", &determinism_rows},
-    {"T18,T20", &compare_rows}, {"T19", &cost_rows},      {"tests", &tested_rows},
+    {"T1", &watertight_rows},   {"T1", &distance_rows}, {"T2", &agreement_rows}, {"T4", &special_ray_rows},
+    {"T5", &scaling_rows},      {"T6", &garbage_rows},  {"T7", &duplicate_rows}, {"T8", &drift_rows},
+    {"T10", &spawned_rows},     {"T11", &extreme_rows}, {"T13", &mutant_rows},   {"T15", &determinism_rows},
+    {"T18,T20", &compare_rows}, {"T19", &cost_rows},    {"tests", &tested_rows},
 };
 
 struct Arguments {
@@ -77,8 +78,8 @@ void add_rows_of(const std::string& file, Matrix& matrix)
     for (std::string line; std::getline(in, line);) {
         const std::vector<std::string> part = split(line, '|');
         if (part.size() != 6) throw std::invalid_argument(file + ": not a row: " + line);
-        matrix.add({part[0], part[1], std::strtoull(part[2].c_str(), nullptr, 10), part[3], part[4], part[5] == "yes",
-                    {}});
+        matrix.add(
+            {part[0], part[1], std::strtoull(part[2].c_str(), nullptr, 10), part[3], part[4], part[5] == "yes", {}});
     }
 }
 
@@ -87,8 +88,12 @@ int run(int argc, char** argv)
     const Arguments arguments = read_arguments(argc, argv);
     const firstray::Executor executor;
     Matrix matrix(arguments.part, executor, std::filesystem::canonical("/proc/self/exe").parent_path().parent_path());
-    for (const RowGroup& group : groups)
-        if (is_wanted(group, arguments.only)) group.measure(matrix);
+    for (const RowGroup& group : groups) {
+        if (!is_wanted(group, arguments.only)) continue;
+        const firstray::Stopwatch watch;
+        group.measure(matrix);
+        std::fprintf(stderr, "%s: %.0f s\n", group.ids.c_str(), 1e-3 * watch.ms());
+    }
     if (!arguments.rows.empty()) add_rows_of(arguments.rows, matrix);
     const std::string table = table_of(matrix.rows());
     std::fputs(("\n" + table).c_str(), stdout);

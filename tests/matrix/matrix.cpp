@@ -23,8 +23,8 @@ std::string verdict(const Row& row)
 
 std::string line_of(const Row& row)
 {
-    return "| " + row.id + " | " + row.tried + " | " + grouped(row.n) + " | " + row.result + " | " + row.target + " | " +
-           verdict(row) + " |\n";
+    return "| " + row.id + " | " + row.tried + " | " + grouped(row.n) + " | " + row.result + " | " + row.target +
+           " | " + verdict(row) + " |\n";
 }
 
 /// T2 comes before T10.

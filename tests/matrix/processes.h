@@ -1,9 +1,9 @@
 #pragma once
+#include <sys/wait.h>
 #include <cstdint>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 #include <string>
-#include <sys/wait.h>
 
 namespace firstray::matrix {
 

@@ -1,5 +1,4 @@
 #pragma once
-#include <atomic>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -81,8 +80,8 @@ Sum shoot(const Executor& executor, const Strategy<Real>& strategy, std::uint64_
 template <typename Real>
 bool same_answer(const RayTile<Real>& a, const RayTile<Real>& b, std::size_t i)
 {
-    if (a.primitive[i] != b.primitive[i] || a.t_max[i] != b.t_max[i]) return false;
-    return a.primitive[i] == no_primitive || (a.u[i] == b.u[i] && a.v[i] == b.v[i]);
+    if (a.primitive[i] != b.primitive[i]) return false;
+    return a.primitive[i] == no_primitive || (a.t_max[i] == b.t_max[i] && a.u[i] == b.u[i] && a.v[i] == b.v[i]);
 }
 
 /// How answers compare with the list's.
@@ -126,13 +125,11 @@ std::vector<Agreement> agreements(const Executor& executor, const std::vector<Co
 {
     std::vector<std::vector<Agreement>> sums(batches, std::vector<Agreement>(all.size()));
     executor.for_each(batches, [&](std::size_t batch) {
-        const RayMask mask = batch % 5 == 3   ? RayMask::opaque
-                             : batch % 5 == 4 ? RayMask::transmitting
-                                              : RayMask::all;
-        const auto fresh = test::make_tile<Real>(make(batch), 0, mask), expected = std::make_unique<RayTile<Real>>(*fresh);
+        const RayMask mask = batch % 5 == 3 ? RayMask::opaque : batch % 5 == 4 ? RayMask::transmitting : RayMask::all;
+        const auto fresh = test::make_tile<Real>(make(batch), 0, mask),
+                   expected = std::make_unique<RayTile<Real>>(*fresh);
         all[0].strategy->closest(*expected);
-        for (std::size_t i = 0; i < all.size(); ++i)
-            sums[batch][i] = agreement(*all[i].strategy, *fresh, *expected);
+        for (std::size_t i = 0; i < all.size(); ++i) sums[batch][i] = agreement(*all[i].strategy, *fresh, *expected);
     });
     std::vector<Agreement> total(all.size());
     for (const std::vector<Agreement>& sum : sums)

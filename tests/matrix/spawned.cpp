@@ -91,15 +91,18 @@ Spawned spawn(const Matrix& matrix, const Strategy<Real>& strategy, const Scene&
             std::vector<TestRay> leaving;
             std::vector<Surface> surfaces;
             std::vector<PrimitiveId> left;
-            leave(now, tile, static_cast<std::size_t>(std::abs(1e3 * rays[0].origin.x / scale)), leaving, surfaces, left);
+            leave(now, tile, static_cast<std::size_t>(std::abs(1e3 * rays[0].origin.x / scale)), leaving, surfaces,
+                  left);
             const auto found = test::make_tile<Real>(leaving, 0);
             strategy.closest(*found);
             Spawned sum;
             sum.rays = leaving.size();
             for (std::size_t i = 0; i < leaving.size(); ++i) {
-                const bool convex_again = shape == Shape::sphere && glm::dot(leaving[i].direction, surfaces[i].geometric) > 0.0 &&
+                const bool convex_again = shape == Shape::sphere &&
+                                          glm::dot(leaving[i].direction, surfaces[i].geometric) > 0.0 &&
                                           !surfaces[i].from_outside;
-                const bool crosses = shape == Shape::sphere && glm::dot(leaving[i].direction, surfaces[i].geometric) < 0.0 &&
+                const bool crosses = shape == Shape::sphere &&
+                                     glm::dot(leaving[i].direction, surfaces[i].geometric) < 0.0 &&
                                      surfaces[i].from_outside;
                 sum.self_hits += found->primitive[i] == left[i] && !convex_again && !crosses;
                 // the other sheet is straight behind a ray that goes steeply there
@@ -133,18 +136,22 @@ void spawned_rows(Matrix& matrix)
                     const Scene scene = shape_scene(shape, scale, place);
                     const Pose now = pose(scene, 0.0);
                     in_type_of(precision, [&](auto real) {
-                        const auto grid = std::move(contenders<decltype(real)>(scene, now, {.precision = precision}, false)[1]);
+                        const auto grid =
+                            std::move(contenders<decltype(real)>(scene, now, {.precision = precision}, false)[1]);
                         sum += spawn(matrix, *grid.strategy, scene, now, shape, scale, place, matrix.part_of(70, 2));
                     });
                 }
-        matrix.add({.id = "T10",
-                    .tried = "rays that leave flat and wavy sheets and spheres, sizes 1e-4 to 1e4, at the origin and beside it, "
-                             "another such surface 4e-5 of the size away: meet their own, miss the other; " + name_of(precision),
-                    .n = sum.rays,
-                    .result = fmt::format("{}; {} of {}", sum.self_hits, sum.leaks, sum.near_rays),
-                    .target = is_reported ? "reported" : "0; 0",
-                    .met = is_reported || (sum.self_hits + sum.leaks == 0 && sum.near_rays > sum.rays / 10),
-                    .known_miss = {}});
+        matrix.add(
+            {.id = "T10",
+             .tried =
+                 "rays that leave flat and wavy sheets and spheres, sizes 1e-4 to 1e4, at the origin and beside it, "
+                 "another such surface 4e-5 of the size away: meet their own, miss the other; " +
+                 name_of(precision),
+             .n = sum.rays,
+             .result = fmt::format("{}; {} of {}", sum.self_hits, sum.leaks, sum.near_rays),
+             .target = is_reported ? "reported" : "0; 0",
+             .met = is_reported || (sum.self_hits + sum.leaks == 0 && sum.near_rays > sum.rays / 10),
+             .known_miss = {}});
     }
 }
 

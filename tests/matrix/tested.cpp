@@ -19,8 +19,9 @@ struct TestedRow {
 const TestedRow tested[] = {
     {"T3", "--obb-hits local against root: t p99.9; hit or miss differs, per million; at offsets 0 and 1e6",
      "hits decided*at length", 14'336'000, "<= 2e-5; <= 10"},
-    {"T9", "random sets of points that are flat, straight, one point or nearly so: points outside of their box, boxes not "
-           "right-handed and orthonormal",
+    {"T9",
+     "random sets of points that are flat, straight, one point or nearly so: points outside of their box, boxes not "
+     "right-handed and orthonormal",
      "100,000 random degenerate sets get*", 100'000, "0"},
     {"T12", "scenes whose voxels up to 64 threads enter at once: built once each, hits of one thread, bytes left",
      "threads that meet*in ten thousand scenes", 10'000, "each; same; 0"},
@@ -47,10 +48,10 @@ void tested_rows(Matrix& matrix)
 {
     for (const TestedRow& row : tested) {
         if (matrix.part() < 1.0) continue;
-        const Ended ended = run_program(
-            fmt::format("{} -nc -ns -s=false '-tc={}'", (matrix.programs() / "tests/firstray_tests").string(), row.test));
-        const bool ran = ended.out.find("test cases: 0") == std::string::npos &&
-                         ended.out.find("| 0 passed") == std::string::npos;
+        const Ended ended = run_program(fmt::format("{} -nc -ns -s=false '-tc={}'",
+                                                    (matrix.programs() / "tests/firstray_tests").string(), row.test));
+        const bool ran =
+            ended.out.find("test cases: 0") == std::string::npos && ended.out.find("| 0 passed") == std::string::npos;
         const std::string said = messages(ended.out);
         matrix.add({.id = row.id,
                     .tried = row.tried,

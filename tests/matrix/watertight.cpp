@@ -114,9 +114,10 @@ void measure(Matrix& matrix, Precision precision, std::uint64_t batches)
                     shoot_mesh<decltype(real)>(matrix, mesh, place, is_carried, precision,
                                                &mesh == meshes ? 4 * batches : batches, found);
                 });
-    const std::string tried = "closed sphere, aligned cube, crumpled mesh, in the root and carried by boxes; rays from "
-                              "inside, half of them with a common apex; misses per million at offsets 0/1e3/2.7e5/1e6, " +
-                              name_of(precision);
+    const std::string tried =
+        "closed sphere, aligned cube, crumpled mesh, in the root and carried by boxes; rays from "
+        "inside, half of them with a common apex; misses per million at offsets 0/1e3/2.7e5/1e6, " +
+        name_of(precision);
     std::string leaks;
     bool all_tight = true;
     for (const Misses& misses : found) {
