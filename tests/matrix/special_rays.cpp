@@ -173,10 +173,10 @@ template <typename Real>
 double seconds(const Strategy<Real>& strategy, const std::vector<TestRay>& rays)
 {
     double best = infinity;
-    for (int round = 0; round < 10; ++round) {
+    for (int round = 0; round < 5; ++round) {
         const auto tile = test::make_tile<Real>(rays, 0);
         const Stopwatch watch;
-        for (int again = 0; again < 20; ++again) strategy.closest(*tile);
+        for (int again = 0; again < 4; ++again) strategy.closest(*tile);
         best = std::min(best, watch.seconds());
     }
     return best;
