@@ -59,8 +59,8 @@ struct Quest {
 
 /// Where a ray is in a box: raises `enter` and lowers `leave`; false when it is not.
 /// wide  by how much the box is widened
-HWY_INLINE bool cut_to_box(const glm::dvec3& o, const glm::dvec3& d, const glm::dvec3& inverse, const glm::dvec3& lo,
-                           const glm::dvec3& hi, double wide, double& enter, double& leave)
+HWY_INLINE bool cut_to_box(const glm::dvec3& o, const glm::dvec3& inverse, const glm::dvec3& lo, const glm::dvec3& hi,
+                           double wide, double& enter, double& leave)
 {
     for (int axis = 0; axis < 3; ++axis) {
         const double a = (lo[axis] - wide - o[axis]) * inverse[axis];
@@ -103,12 +103,12 @@ HWY_INLINE bool make_walk_ray(glm::dvec3 o, const glm::dvec3& d, double t_min, d
     for (int axis = 0; axis < 3; ++axis) walk.exact_inverse[axis] = d[axis] != 0.0 ? 1.0 / d[axis] : 1e300;
     const double length = std::max(std::max(std::abs(d.x), std::abs(d.y)), std::abs(d.z));
     const double begin = enter, end = leave;
-    const bool is_in = cut_to_box(o, d, walk.exact_inverse, lo, hi, wide, enter, leave);
+    const bool is_in = cut_to_box(o, walk.exact_inverse, lo, hi, wide, enter, leave);
     double gone = 0.0;
     if (HWY_UNLIKELY(std::abs(enter) * length > far_away * static_cast<double>(pad))) {
         enter = std::max(begin, std::min(enter, leave)), leave = end;
         gone = go_near(o, d, enter, leave);
-        if (!cut_to_box(o, d, walk.exact_inverse, lo, hi, wide, enter, leave)) return false;
+        if (!cut_to_box(o, walk.exact_inverse, lo, hi, wide, enter, leave)) return false;
     } else if (!is_in) {
         return false;
     }
