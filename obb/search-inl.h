@@ -94,7 +94,8 @@ struct World {
     {
         const GridStructure* inside = placed.box->enter();
         const BoxPrimitives<Real> primitives{target, *placed.box, placed.group, placed.in_root, ray};
-        if (HWY_UNLIKELY(!inside)) return one_by_one(quest, *placed.plan, primitives);
+        if (HWY_UNLIKELY(!inside) || largest_component<double>(o) > far_away * static_cast<double>(inside->pad))
+            return one_by_one(quest, *placed.plan, primitives);
         Search<Quest, BoxPrimitives<Real>> search{quest, primitives, inside};
         return search.begin(o, d, target.precision == Precision::fast ? loose : 0.0f) &&
                search.run(EagerResolver(*inside));

@@ -34,8 +34,8 @@ struct RayCost {
 /// Up to 1,024 rays, structure of arrays, with room for what is found along them.
 /// A ray is apex + t * direction[i] (or origin[i] + t * direction[i] where there is no common apex), t in the open
 /// interval (t_min, t_max). Coordinates are the root system's: world minus the scene's origin (Scene::origin).
-/// Directions need not be normalised; t counts in their lengths. A ray with a NaN, an infinite origin or direction, or
-/// a zero direction meets nothing.
+/// Directions need not be normalised; t counts in their lengths. A ray with a NaN, an infinite or zero direction, or an
+/// origin beyond 1e18 meets nothing.
 template <typename Real>
 struct RayTile {
     using Vec = glm::vec<3, Real, glm::defaultp>;  ///< a point or direction

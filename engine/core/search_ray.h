@@ -5,7 +5,11 @@
 
 namespace firstray::inline v0 {
 
-/// One ray of a tile as searches want it: known to be finite, and with a direction whose largest component is not
+/// Coordinates beyond this are out of range: rays that start there meet nothing, triangles with such a corner are not
+/// there. So float's products of two lengths stay finite, and double's of as many as are needed.
+inline constexpr double farthest_place = 1e18;
+
+/// One ray of a tile as searches want it: known to be in range, and with a direction whose largest component is not
 /// extreme. Directions outside [2^-32, 2^32) are scaled by a power of two, which changes t exactly and nothing else, so
 /// that products of three lengths stay in range.
 template <typename Real>
@@ -19,7 +23,8 @@ struct SearchRay {
     Real tile_t(Real t) const { return exponent == 0 ? t : std::ldexp(t, -exponent); }
 };
 
-/// Fills `ray` from a lane; false when it can meet nothing (NaN, infinite or zero direction, empty interval).
+/// Fills `ray` from a lane; false when it can meet nothing (origin out of range, NaN, infinite or zero direction, empty
+/// interval).
 template <typename Real>
 [[gnu::always_inline]] inline bool make_search_ray(const RayTile<Real>& tile, int lane, SearchRay<Real>& ray)
 {
@@ -30,8 +35,9 @@ template <typename Real>
     ray.exponent = 0;
     const auto along = glm::abs(ray.direction), apart = glm::abs(ray.origin);
     const Real length = std::max(std::max(along.x, along.y), along.z);
-    // Sums are finite exactly when no part is infinite or NaN, but for overflow, which no declared coordinate reaches.
-    if (!std::isfinite(along.x + along.y + along.z) || !std::isfinite(apart.x + apart.y + apart.z)) return false;
+    if (!std::isfinite(along.x) || !std::isfinite(along.y) || !std::isfinite(along.z)) return false;
+    constexpr auto farthest = static_cast<Real>(farthest_place);
+    if (!(apart.x <= farthest && apart.y <= farthest && apart.z <= farthest)) return false;
     if (!(length > Real(0)) || !(ray.t_min < ray.t_max)) return false;
     if (length >= Real(0x1p-32) && length < Real(0x1p32)) return true;
     ray.exponent = std::ilogb(length);

@@ -176,11 +176,11 @@ HWY_INLINE std::uint32_t make_beam_triangles(const TrianglePack& pack, const Bea
         }
 
         // The volume between the apex and the triangle has the sign that the sides of a hit have. Seen edge-on, both
-        // signs may occur: nothing is certain then.
+        // signs may occur: nothing is certain then, nor where it overflows.
         const V volume = hn::MulAdd(n[0][0], a[0][0], hn::MulAdd(n[0][1], a[0][1], hn::Mul(n[0][2], a[0][2])));
         const V doubt = hn::Mul(hn::Set(d, 4.0f), hn::Mul(error, distance));
-        error =
-            hn::IfThenElse(hn::Gt(hn::Abs(volume), doubt), error, hn::Set(d, std::numeric_limits<float>::infinity()));
+        const V infinite = hn::Set(d, std::numeric_limits<float>::infinity()), size = hn::Abs(volume);
+        error = hn::IfThenElse(hn::And(hn::Gt(size, doubt), hn::Lt(size, infinite)), error, infinite);
         const V flip = hn::And(volume, hn::SignBit(d));
         auto apart = hn::Lt(far, zero);
         for (int i = 0; i < 3; ++i) {

@@ -243,8 +243,9 @@ HWY_INLINE void try_occluders(Quest& quest)
 /// Whether rays of a tile may walk as beams: they have a common apex, and nobody asks what each of them costs.
 inline bool may_make_beams(const RayTile<float>& tile)
 {
-    const float sum = tile.apex.x + tile.apex.y + tile.apex.z;
-    return tile.common_apex && tile.cost == nullptr && tile.count >= fewest_rays && std::isfinite(sum);
+    const auto is_in_range = [](float x) { return std::abs(x) <= static_cast<float>(farthest_place); };
+    return tile.common_apex && tile.cost == nullptr && tile.count >= fewest_rays && is_in_range(tile.apex.x) &&
+           is_in_range(tile.apex.y) && is_in_range(tile.apex.z);
 }
 
 /// Sends every ray of a tile on its quest, in beams where that is possible.

@@ -57,29 +57,64 @@ struct Quest {
     }
 };
 
+/// Where a ray is in a box: raises `enter` and lowers `leave`; false when it is not.
+/// wide  by how much the box is widened
+HWY_INLINE bool cut_to_box(const glm::dvec3& o, const glm::dvec3& inverse, const glm::dvec3& lo, const glm::dvec3& hi,
+                           double wide, double& enter, double& leave)
+{
+    for (int axis = 0; axis < 3; ++axis) {
+        const double a = (lo[axis] - wide - o[axis]) * inverse[axis];
+        const double b = (hi[axis] + wide - o[axis]) * inverse[axis];
+        enter = std::max(enter, std::min(a, b));
+        leave = std::min(leave, std::max(a, b));
+    }
+    return enter <= leave;
+}
+
+/// Bound on the error of a t at which a plane is crossed, relative to it: 4 half ulps of double, and some.
+inline constexpr double crossing_error = 0x1p-50;
+
+/// From this many pads away, double cannot tell where a ray is in a box: it is wrong by more than a 256th of the pad.
+inline constexpr double far_away = 0x1p-8 / crossing_error;
+
+/// The same for a ray from so far away that double cannot tell where it enters: goes near the box first, along the ray
+/// and with one rounding, so that it stays on it. `o` becomes that place; enter and leave count from there.
+/// returns  t of that place
+inline HWY_NOINLINE double go_near(glm::dvec3& o, const glm::dvec3& d, double& enter, double& leave)
+{
+    const double error = std::abs(enter) * crossing_error, near = enter - error;
+    for (int axis = 0; axis < 3; ++axis) o[axis] = std::fma(near, d[axis], o[axis]);
+    leave += std::abs(leave) * crossing_error - near;
+    enter = 0.0;
+    return near;
+}
+
 /// Moves a ray to where it enters a box, given by its corners; false when it does not.
 /// o, d            origin and direction in the box's system
 /// t_min, t_max    where hits are of interest
 /// pad             by how much the box is widened
-HWY_INLINE bool make_walk_ray(const glm::dvec3& o, const glm::dvec3& d, double t_min, double t_max,
-                              const glm::dvec3& lo, const glm::dvec3& hi, float pad, WalkRay& walk)
+HWY_INLINE bool make_walk_ray(glm::dvec3 o, const glm::dvec3& d, double t_min, double t_max, const glm::dvec3& lo,
+                              const glm::dvec3& hi, float pad, WalkRay& walk)
 {
     // A hit's t is off by its slack; one that lies outside the interval by that much can still be found inside it.
     double enter = t_min - std::abs(t_min) * t_slack, leave = t_max + std::abs(t_max) * t_slack;
     const double wide = 2.0 * static_cast<double>(pad);
-    double length = 0.0;
-    for (int axis = 0; axis < 3; ++axis) {
-        // A ray along a slab meets it everywhere or nowhere: its planes are crossed at minus and plus very far.
-        walk.exact_inverse[axis] = d[axis] != 0.0 ? 1.0 / d[axis] : 1e300;
-        const double a = (lo[axis] - wide - o[axis]) * walk.exact_inverse[axis];
-        const double b = (hi[axis] + wide - o[axis]) * walk.exact_inverse[axis];
-        enter = std::max(enter, std::min(a, b));
-        leave = std::min(leave, std::max(a, b));
-        length = std::max(length, std::abs(d[axis]));
+    // A ray along a slab meets it everywhere or nowhere: its planes are crossed at minus and plus very far.
+    for (int axis = 0; axis < 3; ++axis) walk.exact_inverse[axis] = d[axis] != 0.0 ? 1.0 / d[axis] : 1e300;
+    const double length = std::max(std::max(std::abs(d.x), std::abs(d.y)), std::abs(d.z));
+    const double begin = enter, end = leave;
+    const bool is_in = cut_to_box(o, walk.exact_inverse, lo, hi, wide, enter, leave);
+    double gone = 0.0;
+    if (HWY_UNLIKELY(std::abs(enter) * length > far_away * static_cast<double>(pad))) {
+        enter = std::max(begin, std::min(enter, leave)), leave = end;
+        gone = go_near(o, d, enter, leave);
+        if (!cut_to_box(o, walk.exact_inverse, lo, hi, wide, enter, leave)) return false;
+    } else if (!is_in) {
+        return false;
     }
-    if (!(enter <= leave)) return false;
-    walk.shift = enter;
+    walk.shift = gone + enter;
     walk.t_pad = static_cast<float>(static_cast<double>(pad) / length);
+    walk.near = o;
     for (int axis = 0; axis < 3; ++axis) {
         walk.origin[axis] = static_cast<float>(o[axis] + enter * d[axis]);
         walk.direction[axis] = static_cast<float>(d[axis]);
@@ -122,7 +157,8 @@ struct Search {
         if (!make_walk_ray(o, d, static_cast<double>(quest.ray.t_min), static_cast<double>(quest.hit.t),
                            glm::dvec3(top.lo), glm::dvec3(top.hi()), structure->pad, walk))
             return false;
-        filter = make_filter_ray(o, d, walk.exact_inverse, structure->largest, structure->blur, loose);
+        filter = make_filter_ray(walk.near, d, walk.exact_inverse, structure->largest, structure->blur, loose,
+                                 largest_component<double>(o));
         filter.set_near_end(walk, structure->pad);
         update_stop();
         return true;

@@ -39,6 +39,7 @@ struct WalkRay {
     double shift = 0.0;
     float t_pad = 0.0f;        ///< walk t in which the ray passes the structure's pad
     glm::dvec3 exact_inverse;  ///< 1 / direction; very large where that is 0
+    glm::dvec3 near;           ///< a place on the ray, as near as it takes for double to tell the next ones
 };
 
 /// A ray as the triangle filter sees it: sheared so that it points along its major axis, where a triangle becomes flat.
@@ -54,6 +55,7 @@ struct FilterRay {
     // Depth is forward * z. Hits are of interest from near_end to far_end, give or take what a margin says per error of
     // the sides.
     float near_end = 0.0f, near_margin = 0.0f, far_end = 0.0f, far_margin = 0.0f;
+    float margin = 6.0f;  ///< infinite where products with depths overflow: they then keep nothing out
     float depth_error, depth_error_per_edge;  ///< by how much a hit may lie before or behind all corners
     float base = 0.0f, speed = 0.0f;  ///< depth at walk t is base + speed * t
 
@@ -63,24 +65,25 @@ struct FilterRay {
         base = forward * walk.origin[z];
         speed = std::abs(walk.direction[z]);
         near_end = base - 2.0f * pad;
-        near_margin = 6.0f * (largest + std::abs(near_end));
+        near_margin = margin * (largest + std::abs(near_end));
     }
     /// Nothing beyond this walk t is of interest.
     void set_far_end(float walk_t, float pad)
     {
         far_end = std::min(base + speed * walk_t + pad, 1e30f);  // finite, so that products with zero are numbers
-        far_margin = 6.0f * (largest + std::abs(far_end));
+        far_margin = margin * (largest + std::abs(far_end));
     }
 };
 
-/// o, d     origin and direction in the structure's system
+/// o, d     a place on the ray, not too far from the structure, and its direction, in the structure's system
 /// inverse  1 / direction, where it is not 0
 /// largest  the structure's largest coordinate
 /// blur     how far a corner that the test sees may be from its place in the pack, per coordinate
 /// loose    admit also what Precision::fast may take for a hit: how much larger its error is in the structure's system
 ///          than in its own (1 where they are the same); 0 admits only what the ray meets
+/// reach    largest coordinate of the ray's origin
 HWY_INLINE FilterRay make_filter_ray(const glm::dvec3& o, const glm::dvec3& d, const glm::dvec3& inverse, float largest,
-                                     float blur, float loose)
+                                     float blur, float loose, double reach)
 {
     const glm::dvec3 along = glm::abs(d);
     FilterRay f;
@@ -89,6 +92,7 @@ HWY_INLINE FilterRay make_filter_ray(const glm::dvec3& o, const glm::dvec3& d, c
     f.y = f.x == 2 ? 0 : f.x + 1;
     f.forward = d[f.z] > 0.0 ? 1.0f : -1.0f;
     f.largest = largest;
+    if (largest > 0x1p40f) f.margin = std::numeric_limits<float>::infinity();
     const double slope_x = d[f.x] * inverse[f.z], slope_y = d[f.y] * inverse[f.z];
     f.slope_x = static_cast<float>(slope_x);
     f.slope_y = static_cast<float>(slope_y);
@@ -105,8 +109,7 @@ HWY_INLINE FilterRay make_filter_ray(const glm::dvec3& o, const glm::dvec3& d, c
     f.depth_error_per_edge = 0.0f;
     if (loose > 0.0f) {
         f.depth_error_per_edge = loose * 0x1p-5f;
-        const float reach = static_cast<float>(std::max(std::max(std::abs(o.x), std::abs(o.y)), std::abs(o.z)));
-        f.error_per_edge += loose * side_error<float> * (largest + reach);
+        f.error_per_edge += loose * side_error<float> * (largest + static_cast<float>(reach));
     }
     return f;
 }

@@ -17,12 +17,30 @@ struct LocalRay {
     double shift;
 };
 
+/// Moves a ray that starts so far away that its place in the quadric's system would be blurred close to the quadric:
+/// along the ray and with one rounding, so that it stays on it. Returns t of where it starts now.
+double go_near(const DAabb& bounds, const glm::dvec3& direction, glm::dvec3& start)
+{
+    constexpr double far_away = 0x1p25;  // sizes: double then tells places to a 2^28th of the size
+    const glm::dvec3 size = bounds.size(), way = 0.5 * (bounds.lo + bounds.hi) - start;
+    const auto largest = [](const glm::dvec3& v) {
+        return std::max(std::max(std::abs(v.x), std::abs(v.y)), std::abs(v.z));
+    };
+    if (!(largest(way) > far_away * largest(size))) return 0.0;
+    const double t = glm::dot(way, direction) / glm::dot(direction, direction);
+    if (!std::isfinite(t)) return 0.0;
+    for (int axis = 0; axis < 3; ++axis) start[axis] = std::fma(t, direction[axis], start[axis]);
+    return t;
+}
+
 LocalRay to_local(const RootQuadric& q, const glm::dvec3& origin, const glm::dvec3& direction)
 {
-    const glm::dvec3 o = q.quadric_from_root.point(origin), d = q.quadric_from_root.vector(direction);
+    glm::dvec3 start = origin;
+    const double gone = go_near(q.bounds, direction, start);
+    const glm::dvec3 o = q.quadric_from_root.point(start), d = q.quadric_from_root.vector(direction);
     const double squared = glm::dot(d, d);
     const double shift = squared > 0.0 ? -glm::dot(o, d) / squared : 0.0;
-    return {o + shift * d, d, shift};
+    return {o + shift * d, d, gone + shift};
 }
 
 /// Both roots of a t^2 + 2 b t + c = 0, smaller first; infinities where there are none.

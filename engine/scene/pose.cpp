@@ -5,6 +5,8 @@
 #include <cmath>
 #include <span>
 
+#include "engine/core/search_ray.h"
+
 namespace firstray::inline v0 {
 namespace {
 
@@ -45,11 +47,13 @@ const DeformingTriangle& deforming_triangle(const Scene& scene, const Group& gro
 }
 
 template <typename Vec>
-bool are_finite(const Vec* points, std::size_t count)
+bool are_in_range(const Vec* points, std::size_t count)
 {
-    Vec sum(0);  // of zeros, or of what is not a number
-    for (std::size_t i = 0; i < count; ++i) sum += points[i] - points[i];
-    return sum == Vec(0);
+    constexpr auto farthest = static_cast<typename Vec::value_type>(farthest_place);
+    bool all = true;
+    for (std::size_t i = 0; i < count; ++i)
+        for (int axis = 0; axis < 3; ++axis) all = all & (std::abs(points[i][axis]) <= farthest);
+    return all;
 }
 
 template <typename Real>
@@ -59,9 +63,9 @@ bool carry(const Pose& pose, const Group& group, glm::vec<3, Real, glm::defaultp
     constexpr std::size_t grain = 16384;
     const Scene& scene = *pose.scene;
     const Transform& root_from_node = pose.root_from_node[group.node];
-    std::atomic<bool> all_finite{true};
+    std::atomic<bool> all_in_range{true};
     const auto check = [&](const Vec* points, std::size_t count) {
-        if (!are_finite(points, count)) all_finite.store(false, std::memory_order_relaxed);
+        if (!are_in_range(points, count)) all_in_range.store(false, std::memory_order_relaxed);
     };
     if (!has_keys(group)) {
         for_pieces(executor, group.vertices, grain, [&](std::size_t begin, std::size_t end) {
@@ -70,7 +74,7 @@ bool carry(const Pose& pose, const Group& group, glm::vec<3, Real, glm::defaultp
                 out[i] = Vec(root_from_node.point(scene.position(first + static_cast<std::uint32_t>(i - begin))));
             check(out + begin, end - begin);
         });
-        return all_finite;
+        return all_in_range;
     }
     for_pieces(executor, group.triangles, grain, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
@@ -81,7 +85,7 @@ bool carry(const Pose& pose, const Group& group, glm::vec<3, Real, glm::defaultp
             check(corners, 3);
         }
     });
-    return all_finite;
+    return all_in_range;
 }
 
 /// Grows the box by a circle: half its extent along an axis is the length of that axis' row.

@@ -38,7 +38,7 @@ Pose pose(const Scene& scene, double time);
 /// vertices, so that every strategy gets the same bits: computed in double, rounded once.
 /// out       room for group.vertices points
 /// executor  null: on this thread
-/// returns   whether all of them are finite
+/// returns   whether all of them are in range (farthest_place)
 bool carry_vertices(const Pose& pose, const Group& group, glm::vec3* out, const Executor* executor = nullptr);
 /// The same in double.
 bool carry_vertices(const Pose& pose, const Group& group, glm::dvec3* out, const Executor* executor = nullptr);

@@ -4,14 +4,16 @@
 #include <cmath>
 #include <numeric>
 
+#include "engine/core/search_ray.h"
+
 namespace firstray::inline v0 {
 namespace {
 
-bool has_finite_corners(const auto& triangle)
+bool is_in_range(const auto& triangle)
 {
     for (const auto& corner : triangle.v)
         for (int axis = 0; axis < 3; ++axis)
-            if (!std::isfinite(corner[axis])) return false;
+            if (!(std::abs(static_cast<double>(corner[axis])) <= farthest_place)) return false;
     return true;
 }
 
@@ -158,7 +160,7 @@ void RootGeometry<Real>::list(std::uint32_t index, PrimitiveList& list) const
         std::iota(list.triangles.begin() + static_cast<std::ptrdiff_t>(before), list.triangles.end(), group.first);
     } else {
         for (PrimitiveId id = group.first; id < quadrics; ++id)
-            if (has_finite_corners(triangle(id))) list.triangles.push_back(id);
+            if (is_in_range(triangle(id))) list.triangles.push_back(id);
     }
     for (PrimitiveId id = quadrics; id < group.first + group.primitives(); ++id) list.quadrics.push_back(id);
 }
