@@ -8,7 +8,9 @@
 #include <algorithm>
 #include <limits>
 #include <new>
+#include <optional>
 
+#include "bench/firstray/counted_new.h"
 #include "bench/firstray/jobs.h"
 #include "bench/firstray/search.h"
 #include "bench/firstray/words.h"
@@ -50,6 +52,7 @@ void add_int(CLI::App& app, const char* name, int& target, int low, int high, co
 CLI::Option* add_scene(CLI::App& app, SceneChoice& scene)
 {
     app.add_flag("--allow-outside", scene.allow_outside, "let includes and textures lie outside the scene's folder");
+    add(app, "--limit", scene.limits, "NAME=N", "allow more, or less, than the limit that a message names; NAME=N,...");
     return add(app, "SCENE", scene.file, " ", "scene file (.aff)")->required();
 }
 
@@ -96,6 +99,7 @@ void add_render(CLI::App& app, RenderJob& job)
     app.add_flag("--structure", job.structure,
                  "draw boxes and filled cells over the pictures; those of few pixels fade out");
     add(app, "--output", job.output, "NAME", "a run of # is the frame; default SCENE.####.png here, .exr with --aov");
+    app.add_flag("--resume", job.resume, "keep frames whose files record this scene and these settings");
     add(app, "--stats", job.stats, "FILE", "write times, rays and structure of every frame as JSON");
     app.add_flag("--table", job.table, "print a line of times per frame to standard output");
     add(app, "--progress", job.progress, "WHEN", "auto (not beside --table), always or never; default auto");
@@ -197,7 +201,27 @@ std::string one_line(std::string text)
     return text;
 }
 
-void dispatch(std::span<const std::string> arguments, Streams streams)
+/// What --memory-limit asks for, from when it is read to the end of the run.
+class Memory {
+public:
+    void set(const std::string& size)
+    {
+        if (size.empty()) return;
+        size_ = size;
+        limit_.emplace(parse_amount("--memory-limit", size));
+    }
+    std::string shortage() const
+    {
+        return limit_ && MemoryLimit::was_hit() ? "more memory is needed than --memory-limit " + size_ + " allows"
+                                           : "out of memory";
+    }
+
+private:
+    std::string size_;
+    std::optional<MemoryLimit> limit_;
+};
+
+void dispatch(std::span<const std::string> arguments, Streams streams, Memory& limits)
 {
     RenderJob render;
     CompareJob compare;
@@ -213,6 +237,10 @@ void dispatch(std::span<const std::string> arguments, Streams streams)
     add_info(*app.add_subcommand("info", "tell what a scene consists of"), info);
     add_trace(*app.add_subcommand("trace", "find what given rays hit"), trace);
 
+    std::string memory;
+    for (CLI::App* command : app.get_subcommands({}))
+        add(*command, "--memory-limit", memory, "SIZE", "most memory to allocate, e.g. 500M or 2G; default: no limit");
+
     try {
         app.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));  // CLI11 wants them reversed
     } catch (const CLI::ParseError& error) {
@@ -224,6 +252,7 @@ void dispatch(std::span<const std::string> arguments, Streams streams)
     const CLI::App& command = *app.get_subcommands().front();
     refuse_extras(app);
     refuse_extras(command);
+    limits.set(memory);
     if (command.get_name() == "render") return render_scene(render, streams);
     if (command.get_name() == "compare") {
         compare.command_line = fmt::format("firstray {}", fmt::join(arguments, " "));
@@ -249,14 +278,15 @@ int report(Streams streams, Fault fault, std::string_view message)
 
 int run(std::span<const std::string> arguments, Streams streams)
 {
+    Memory memory;
     try {
-        dispatch(arguments, streams);
+        dispatch(arguments, streams, memory);
         if (!streams.out.flush()) throw FileError("cannot write to standard output");
         return 0;
     } catch (const Error& error) {
         return report(streams, error.fault(), error.what());
     } catch (const std::bad_alloc&) {
-        return report(streams, Fault::limit, "out of memory");
+        return report(streams, Fault::limit, memory.shortage());
     } catch (const std::exception& error) {
         return report(streams, Fault::rendering, one_line(error.what()));
     } catch (...) {

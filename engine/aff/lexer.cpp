@@ -222,8 +222,7 @@ void Lexer::statement_fault(const std::string& read, const std::string& expected
 void Lexer::over_limit(const std::string& what, std::uint64_t limit, const char* name) const
 {
     const Mention here = mention();
-    throw LimitError(here.place + "more than " + std::to_string(limit) + " " + what + " (limit: " + name + ")" +
-                     here.chain);
+    throw LimitError(here.place + "more than " + std::to_string(limit) + " " + what, name, here.chain);
 }
 
 }  // namespace firstray
