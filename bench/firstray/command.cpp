@@ -239,7 +239,7 @@ void dispatch(std::span<const std::string> arguments, Streams streams, Memory& l
 
     std::string memory;
     for (CLI::App* command : app.get_subcommands({}))
-        add(*command, "--memory-limit", memory, "SIZE", "most memory to allocate, e.g. 500M or 2G; default: no limit");
+        add(*command, "--memory-limit", memory, "SIZE", "most memory to allocate, e.g. 500M or 2G; default none");
 
     try {
         app.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));  // CLI11 wants them reversed

@@ -2,6 +2,7 @@
 
 #include <malloc.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdlib>
 #include <new>
@@ -23,6 +24,13 @@ void note_most(std::int64_t now)
     }
 }
 
+/// What the large may not have: messages, and destructors that allocate, must go on when the limit is reached.
+std::int64_t reserve_for(std::int64_t size, std::int64_t largest)
+{
+    constexpr std::int64_t small = 1024, reserve = 64 * 1024;
+    return size <= small ? 0 : std::min(reserve, largest / 8);
+}
+
 /// Counts what malloc has given, which may be more than was asked for; gives it back where that is too much.
 void* counted(void* memory)
 {
@@ -30,7 +38,7 @@ void* counted(void* memory)
     if (largest == 0 || memory == nullptr) return memory;
     const auto size = static_cast<std::int64_t>(malloc_usable_size(memory));
     const std::int64_t now = held.fetch_add(size, std::memory_order_relaxed) + size;
-    if (now <= largest) {
+    if (now <= largest - reserve_for(size, largest)) {
         note_most(now);
         return memory;
     }

@@ -5,7 +5,8 @@
 namespace firstray::command {
 
 /// Bounds what the program's operator new has given out and not got back, while this lives; beyond it std::bad_alloc is
-/// thrown. OpenImageIO's and TBB's C++ parts allocate by the same operator. Not counted: code, stacks, what C libraries
+/// thrown. The last 64 KiB are for small allocations, so that a run that has reached the limit can still end in order.
+/// OpenImageIO's and TBB's C++ parts allocate by the same operator. Not counted: code, stacks, what C libraries
 /// and TBB's task pools take from malloc themselves. One at a time.
 class MemoryLimit {
 public:

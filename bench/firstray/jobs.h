@@ -4,7 +4,6 @@
 #include <string>
 
 #include "bench/firstray/command.h"
-#include "bench/measure/frame_stats.h"
 #include "engine/scene/scene.h"
 #include "engine/strategy/strategy.h"
 

@@ -89,6 +89,20 @@ Json settings_of(const RenderJob& job, const Plan& plan, const Executor& executo
             {"output", plan.output}};
 }
 
+/// All that the pictures may depend on. No JSON: its destructor allocates, and may then not fail.
+std::string recorded_settings(const RenderJob& job, const Plan& plan)
+{
+    std::string text = fmt::format(
+        "strategy={} precision={} size={}x{} depth={} spp={} frameless=1/{} seed={} grid-density={} max-list={} "
+        "grid-depth={} aov={} structure={}",
+        job.search.strategy, job.search.precision, plan.options.width, plan.options.height, plan.options.depth,
+        plan.options.samples, plan.turns, job.seed, job.search.grid_density, job.search.max_list, job.search.grid_depth,
+        job.aovs, job.structure);
+    for (const auto& [flag, word] : job.search.own)
+        if (!word.empty()) text += fmt::format(" {}={}", flag, word);
+    return text;
+}
+
 /// Says once of every node that its transform is singular.
 class SingularWarnings {
 public:
@@ -194,12 +208,11 @@ void render_scene(const RenderJob& job, Streams streams)
     Plan plan = plan_of(job, ranges, scene);
     const std::vector<Texture> textures = read_textures(scene, job.scene);
     const Executor executor(job.search.threads);
-    const Json settings = settings_of(job, plan, executor);
-    plan.recorded = run_attributes(scene, textures, settings);
+    plan.recorded = run_attributes(scene, textures, recorded_settings(job, plan));
     if (job.resume) keep_finished(plan, streams);
     if (plan.frames.empty()) return;
     const AnyStrategy strategy = make_strategy(job.search, scene, executor);
-    StatsFile stats_file(job.stats, settings);
+    StatsFile stats_file(job.stats, job.stats.empty() ? Json() : settings_of(job, plan, executor));
     const Totals totals = std::visit(
         [&](const auto& chosen) {
             return render_all(job, plan, FrameLoop(scene, textures, *chosen, executor), stats_file, streams);

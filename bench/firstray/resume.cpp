@@ -23,25 +23,14 @@ std::uint64_t digest_of(const Scene& scene, std::span<const Texture> textures)
     return digest;
 }
 
-/// Those that no picture depends on.
-bool is_beside_the_point(const std::string& setting)
-{
-    for (const char* name : {"scene", "frames", "threads", "structure_budget", "allow_outside", "output", "resume"})
-        if (setting == name) return true;
-    return false;
-}
-
 }  // namespace
 
-Attributes run_attributes(const Scene& scene, std::span<const Texture> textures, const Json& settings)
+Attributes run_attributes(const Scene& scene, std::span<const Texture> textures, const std::string& settings)
 {
-    Json telling = Json::object();
-    for (const auto& [name, value] : settings.items())
-        if (!is_beside_the_point(name)) telling[name] = value;
     return {{"firstray:scene", scene.name},
             {"firstray:input", fmt::format("{:016x}", digest_of(scene, textures))},
             {"firstray:version", FIRSTRAY_VERSION},
-            {"firstray:settings", telling.dump()}};
+            {"firstray:settings", settings}};
 }
 
 Attributes frame_attributes(const Attributes& run, int frame)

@@ -12,10 +12,9 @@ namespace firstray::command {
 /// Name and value of what a frame's file records of where it came from.
 using Attributes = std::vector<std::pair<std::string, std::string>>;
 
-/// What all frames of a run record: the version, a digest of all text and texture pixels that were read, and every
-/// setting that the picture may depend on, so neither threads nor places of files.
-/// settings  as --stats has them
-Attributes run_attributes(const Scene& scene, std::span<const Texture> textures, const Json& settings);
+/// What all frames of a run record: the version, a digest of all text and texture pixels that were read, and settings.
+/// settings  every one that the picture may depend on, so neither threads nor places of files
+Attributes run_attributes(const Scene& scene, std::span<const Texture> textures, const std::string& settings);
 
 /// Which frames of a run are still to be rendered.
 struct Resumption {

@@ -173,7 +173,8 @@ void write_frame(const fs::path& file, const Frame& frame, std::span<const Aov> 
 {
     check_picture(frame);
     if (file.extension() == ".exr") {
-        const Packed packed = pack_exr(frame, aovs);
+        Packed packed = pack_exr(frame, aovs);
+        packed.spec.attribute("DateTime", "1970:01:01 00:00:00");  // else it is now: no two runs would be the same
         // An unknown format says that each channel comes in its own.
         write_whole_file(file,
                          encode(file, "openexr", packed.spec, attributes, OIIO::TypeUnknown, packed.words.data()));

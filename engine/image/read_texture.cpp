@@ -1,7 +1,7 @@
+#include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
 #include <algorithm>
-#include <array>
 #include <cerrno>
 #include <fstream>
 #include <new>
@@ -48,8 +48,9 @@ private:
                          name);
     }
     void check_regular() const;
-    const char* format() const;
-    void check_header(const OIIO::ImageSpec& spec) const;
+    std::string content() const;
+    const char* format(std::string_view begin) const;
+    void check_header(const OIIO::ImageSpec& spec, std::uint64_t in_file) const;
     Texture decode() const;
 
     fs::path file_;
@@ -77,9 +78,25 @@ void PictureFile::check_inside(const fs::path& folder) const
         cannot_read("it lies outside the scene's folder, which was not allowed");
 }
 
+/// The whole file: decoders get bytes, so that none opens anything by a name.
+std::string PictureFile::content() const
+{
+    errno = 0;
+    std::ifstream in(file_, std::ios::binary | std::ios::ate);
+    const std::streamoff size = in ? static_cast<std::streamoff>(in.tellg()) : -1;
+    if (size < 0) cannot_read(std::generic_category().message(errno != 0 ? errno : EIO));
+    const std::uint64_t most = 4 * limits_.bytes + 4096;  // pictures written as text are larger than what they say
+    if (static_cast<std::uint64_t>(size) > most)
+        over_limit("has " + std::to_string(size) + " bytes", most, "texture_bytes");
+    std::string bytes(static_cast<std::size_t>(size), '\0');
+    in.seekg(0).read(bytes.data(), size);
+    if (!in) cannot_read(std::generic_category().message(errno != 0 ? errno : EIO));
+    return bytes;
+}
+
 /// The reader to use, by the file's first bytes. OpenImageIO alone would try all it has, by the name's ending and then
 /// one after the other: some 30 formats, films and documents among them.
-const char* PictureFile::format() const
+const char* PictureFile::format(std::string_view begin) const
 {
     struct Magic {
         std::string_view bytes;
@@ -91,19 +108,13 @@ const char* PictureFile::format() const
         {"P5"sv, "pnm"},           {"P6"sv, "pnm"},        {"\x89PNG"sv, "png"}, {"\xff\xd8\xff"sv, "jpeg"},
         {"II*\0"sv, "tiff"},       {"MM\0*"sv, "tiff"},    {"BM"sv, "bmp"},      {"\x76\x2f\x31\x01"sv, "openexr"},
     };
-    std::array<char, 4> first{};
-    errno = 0;
-    std::ifstream in(file_, std::ios::binary);
-    if (!in) cannot_read(std::generic_category().message(errno != 0 ? errno : EIO));
-    in.read(first.data(), first.size());
-    const std::string_view begin(first.data(), static_cast<std::size_t>(in.gcount()));
     for (const Magic& magic : known)
         if (begin.starts_with(magic.bytes)) return magic.format;
     if (file_.extension() == ".tga") return "targa";  // which has no magic bytes
     cannot_read("not of a kind that is read (PNM, PNG, JPEG, TIFF, TGA, BMP, OpenEXR)");
 }
 
-void PictureFile::check_header(const OIIO::ImageSpec& spec) const
+void PictureFile::check_header(const OIIO::ImageSpec& spec, std::uint64_t in_file) const
 {
     if (spec.width < 1 || spec.height < 1 || spec.depth > 1 || spec.deep) cannot_read("not a flat picture");
     if (spec.nchannels < 1 || spec.nchannels > 4)
@@ -117,10 +128,8 @@ void PictureFile::check_header(const OIIO::ImageSpec& spec) const
     if (held_ + bytes > limits_.bytes)
         over_limit("(" + size + " pixels) brings textures to " + std::to_string(held_ + bytes) + " bytes",
                    limits_.bytes, "texture_bytes");
-    std::error_code error;
-    const std::uint64_t in_file = fs::file_size(file_, error);
     const std::uint64_t ratio = bytes / std::max<std::uint64_t>(in_file, 1);
-    if (!error && ratio > limits_.ratio)
+    if (ratio > limits_.ratio)
         over_limit("claims " + size + " pixels in " + std::to_string(in_file) + " bytes, " + std::to_string(ratio) +
                        " for each",
                    limits_.ratio, "texture_ratio");
@@ -154,10 +163,13 @@ Texture PictureFile::decode() const
 {
     OIIO::ImageSpec spec, wishes;
     wishes.attribute("oiio:UnassociatedAlpha", 1);  // else colour comes multiplied by the alpha that is dropped here
-    const auto in = OIIO::ImageInput::create(format());
+    const std::string bytes = content();
+    OIIO::Filesystem::IOMemReader memory(bytes.data(), bytes.size());
+    const auto in = OIIO::ImageInput::create(format(bytes));
     if (!in) cannot_read(OIIO::geterror());
+    if (!in->set_ioproxy(&memory)) cannot_read("its decoder wants to open files by itself");
     if (!in->open(file_.string(), spec, wishes)) cannot_decode(in->geterror());
-    check_header(spec);
+    check_header(spec, bytes.size());
 
     Texture texture{spec.width, spec.height, {}};
     const auto channels = static_cast<std::size_t>(spec.nchannels);

@@ -177,8 +177,8 @@ TEST_CASE("killed at any moment, a run leaves whole frames, and resumed it ends 
     bool is_done = false;
     std::vector<std::string> arguments = run.arguments;
     arguments.insert(arguments.end(), {"--resume"});
-    for (int wait = 1; !is_done && wait < 400; ++wait) {
-        is_done = run_and_kill(arguments, std::chrono::microseconds(500 * wait));
+    for (double wait = 500.0; !is_done && wait < 60e6; wait *= 1.15) {
+        is_done = run_and_kill(arguments, std::chrono::microseconds(static_cast<std::int64_t>(wait)));
         kills += !is_done;
         for (const auto& [name, bytes] : contents(run.out()))
             if (!name.starts_with(".")) CHECK(whole.at(name) == bytes);
