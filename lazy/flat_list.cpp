@@ -20,8 +20,8 @@ Aabb fill(TrianglePack& pack, const GridEntries& entries, std::size_t first)
             pack.clear(lane);
             continue;
         }
-        pack.set(lane, entries.triangles[entry], entries.ids[entry]);
-        box.grow(entries.boxes[entry]);
+        pack.set(lane, entries.triangle(static_cast<std::uint32_t>(entry)), entries.ids[entry]);
+        box.grow(entries.box(static_cast<std::uint32_t>(entry)));
     }
     return box;
 }
@@ -71,7 +71,7 @@ FlatList make_flat_list(const RootGeometry<Real>& geometry, const PrimitiveList&
         }
     }
     some = {{}, primitives.quadrics};
-    for (const Aabb& box : make_entries(geometry, some, nullptr).boxes) bounds.grow(box);
+    for (const Aabb& box : make_entries(geometry, some, nullptr).quadric_boxes) bounds.grow(box);
     structure.quadrics = primitives.quadrics;
 
     if (bounds.empty()) bounds = {glm::vec3(0.0f), glm::vec3(0.0f)};

@@ -9,7 +9,7 @@ namespace {
 /// What a group's entries and top grid may hold, guessed before they are made.
 std::uint64_t guessed_bytes(std::size_t primitives)
 {
-    return primitives * (sizeof(Aabb) + sizeof(RootTriangle<float>) + 16) + sizeof(LazyGrid) + 1024;
+    return primitives * 16 + sizeof(LazyGrid) + 1024;
 }
 
 }  // namespace

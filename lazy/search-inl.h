@@ -129,7 +129,7 @@ struct LazyBeamSearch : BeamSearch<BeamQuest, BeamRootPrimitives> {
                 this->quadric(this->primitives.quadric(entries.ids[entry]), packets);
                 continue;
             }
-            pack.add(entries.triangles[entry], entries.ids[entry]);
+            pack.add(entries.triangle(entry), entries.ids[entry]);
             if (pack.is_full()) this->pack(pack.take(), packets);
         }
         if (!pack.is_empty()) this->pack(pack.take(), packets);

@@ -5,6 +5,7 @@
 #include <limits>
 #include <new>
 
+#include "engine/grid/entry_kernels.h"
 #include "obb/smallest_obb.h"
 
 namespace firstray::obb {
@@ -74,12 +75,12 @@ GridOptions BoxMaker::shape_of(std::size_t primitives) const
     return list;
 }
 
-void BoxMaker::fill(Box& box, GridEntries entries, std::uint64_t& peak_bytes) const
+void BoxMaker::fill(Box& box, GridEntries entries, const Executor* executor, std::uint64_t& peak_bytes) const
 {
     const GridOptions shape = shape_of(entries.count());
     box.blur = entries.blur;
     if (inside != Inside::lazy) {
-        box.inside = build_grid(std::move(entries), shape, nullptr, peak_bytes);
+        box.inside = build_grid(std::move(entries), shape, executor, peak_bytes);
         return;
     }
     box.promise = std::make_unique<Promise>();
@@ -145,33 +146,29 @@ Box BoxMaker::make_in(const BoxPlan& plan, const Transform& local_from_node, flo
         add_triangle(entries, t, id, transmits);
     });
     if (!keep_quadrics) box.quadrics = {};
-    fill(box, std::move(entries), peak_bytes);
+    fill(box, std::move(entries), nullptr, peak_bytes);
     return box;
 }
 
 template <typename Real>
 Box BoxMaker::make_deformed(const BoxPlan& plan, const RootGeometry<Real>& geometry, const Transform& root_from_node,
-                            std::uint64_t& peak_bytes) const
+                            const Executor* executor, std::uint64_t& peak_bytes) const
 {
     Box box;
     box.local_from_node = root_from_node;
     box.node_from_local = inverse(root_from_node);
-    GridEntries entries;
-    for_each_primitive(scene, plan, [&](PrimitiveId id, bool) {
-        const RootTriangle<Real> carried = geometry.triangle(id);
-        RootTriangle<float> t{{glm::vec3(carried.v[0]), glm::vec3(carried.v[1]), glm::vec3(carried.v[2])}, 0.0f};
-        t.edge = longest_edge<float>(t.v[0], t.v[1], t.v[2]);
-        if (!is_finite(t)) return;
-        for (const glm::vec3& corner : t.v) box.bounds.grow(glm::dvec3(corner));
-        add_triangle(entries, t, id, geometry.transmits(id));
-    });
-    fill(box, std::move(entries), peak_bytes);
+    PrimitiveList primitives;
+    geometry.list(plan.group, primitives);
+    GridEntries entries = make_entries(geometry, primitives, executor);
+    const Aabb bounds = bounds_of(entries, executor);
+    box.bounds = {glm::dvec3(bounds.lo), glm::dvec3(bounds.hi)};
+    fill(box, std::move(entries), executor, peak_bytes);
     return box;
 }
 
-template Box BoxMaker::make_deformed(const BoxPlan&, const RootGeometry<float>&, const Transform&,
+template Box BoxMaker::make_deformed(const BoxPlan&, const RootGeometry<float>&, const Transform&, const Executor*,
                                      std::uint64_t&) const;
-template Box BoxMaker::make_deformed(const BoxPlan&, const RootGeometry<double>&, const Transform&,
+template Box BoxMaker::make_deformed(const BoxPlan&, const RootGeometry<double>&, const Transform&, const Executor*,
                                      std::uint64_t&) const;
 
 }  // namespace firstray::obb

@@ -71,14 +71,15 @@ struct BoxMaker {
     /// blur  see GridEntries
     Box make_in(const BoxPlan& plan, const Transform& local_from_node, float blur, std::uint64_t& peak_bytes) const;
 
-    /// Makes the box of a group that deforms, axis-aligned, in the root system itself, from its carried primitives.
+    /// Makes the box of a group that deforms, axis-aligned, in the root system itself, from its carried primitives,
+    /// which must stay as they are as long as the box is used.
     template <typename Real>
     Box make_deformed(const BoxPlan& plan, const RootGeometry<Real>& geometry, const Transform& root_from_node,
-                      std::uint64_t& peak_bytes) const;
+                      const Executor* executor, std::uint64_t& peak_bytes) const;
 
 private:
     GridOptions shape_of(std::size_t primitives) const;
-    void fill(Box& box, GridEntries entries, std::uint64_t& peak_bytes) const;
+    void fill(Box& box, GridEntries entries, const Executor* executor, std::uint64_t& peak_bytes) const;
 };
 
 }  // namespace firstray::obb

@@ -113,9 +113,9 @@ void ObbStrategy<Real>::move_box(std::uint32_t number, const Pose& pose)
     if (!place.is_there) return;
     const Transform& root_from_node = pose.root_from_node[group.node];
     if (group.deforming) {
-        geometry_.touch(plan.group);
+        geometry_.touch(plan.group, options_.executor);
         std::uint64_t built_bytes = 0;
-        box = maker_.make_deformed(plan, geometry_, root_from_node, built_bytes);
+        box = maker_.make_deformed(plan, geometry_, root_from_node, options_.executor, built_bytes);
         regridded_ += group.primitives();
         place = place_in_root(box);
     } else {

@@ -8,11 +8,12 @@
 
 namespace firstray {
 
-enum class Phase { update, primary, shadow };
+enum class Phase { update, primary, shadow, scattered };
 
-/// The primary and shadow rays of one frame, recorded so that every strategy gets the same ones. Rays come in batches
-/// as a renderer makes them: tiles of 32 x 32 pixels in blocks of 4 x 4, primary rays from the eye through the pixels'
-/// centres, then per light the rays from the light to what the tile's primary rays hit.
+/// The rays of one frame, recorded so that every strategy gets the same ones. They come in batches as a renderer makes
+/// them: tiles of 32 x 32 pixels in blocks of 4 x 4, primary rays from the eye through the pixels' centres, then per light
+/// the rays from the light to what the tile's primary rays hit. Scattered rays start there, one each, in random
+/// directions that turn back towards the eye's side: nothing about them is coherent.
 class FrameRays {
 public:
     /// pose    has the camera and the lights; kept
@@ -27,18 +28,19 @@ public:
 
     std::size_t batches(Phase phase) const;
     /// Fills `tile` with a batch's rays, no ray at all where a light has nothing to see.
-    /// phase  primary or shadow
+    /// phase  not update
     void load(Phase phase, std::size_t batch, RayTile<float>& tile) const;
-    std::size_t count(Phase phase) const { return phase == Phase::primary ? pixels_.size() : shadow_rays_; }
+    std::size_t count(Phase phase) const;
 
 private:
     void load_primary(std::size_t tile_index, RayTile<float>& tile) const;
     void load_shadow(std::size_t tile_index, const glm::dvec3& light, RayTile<float>& tile) const;
+    void load_scattered(std::size_t tile_index, RayTile<float>& tile) const;
 
     Pose pose_;
     CameraRays camera_;
     RayMask shadow_mask_;
-    std::size_t shadow_rays_ = 0;
+    std::size_t hit_pixels_ = 0;
     std::vector<glm::ivec2> pixels_;  // tile by tile
     std::vector<std::size_t> first_;  // by tile: where its pixels begin; one entry more than tiles
     std::vector<glm::vec3> hits_;     // by pixel, root system; NaN where nothing is hit

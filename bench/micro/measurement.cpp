@@ -22,10 +22,10 @@ struct Contender {
 
 void search(const Strategy<float>& strategy, Phase phase, RayTile<float>& tile)
 {
-    if (phase == Phase::primary)
-        strategy.closest(tile);
-    else
+    if (phase == Phase::shadow)
         strategy.occluded(tile);
+    else
+        strategy.closest(tile);
 }
 
 /// Calls visit(tile) for every batch of a phase that next() names, until that is past the last.
@@ -49,8 +49,8 @@ std::vector<float> answers(const Strategy<float>& strategy, const FrameRays& ray
         search(strategy, phase, tile);
         for (std::size_t i = 0; i < static_cast<std::size_t>(tile.count); ++i)
             found.push_back(tile.primitive[i] == no_primitive ? nothing
-                            : phase == Phase::primary         ? tile.t_max[i]
-                                                              : 1.0f);
+                            : phase == Phase::shadow          ? 1.0f
+                                                              : tile.t_max[i]);
     });
     return found;
 }
@@ -107,17 +107,20 @@ void attempt(Measured& result, const Work& work)
 }
 
 /// Records a frame's rays with the reference's hits and compares everyone's answers.
-void check_frame(Strategy<float>& reference, FrameRays& rays, std::vector<Contender>& contenders)
+void check_frame(Strategy<float>& reference, bool scattered, FrameRays& rays, std::vector<Contender>& contenders)
 {
     reference.update(rays.pose());
     const std::vector<float> primary = answers(reference, rays, Phase::primary);
     rays.set_hits(primary);
-    const std::vector<float> shadow = answers(reference, rays, Phase::shadow);
+    std::vector<Phase> phases = {Phase::primary, Phase::shadow};
+    if (scattered) phases.push_back(Phase::scattered);
+    std::vector<std::vector<float>> expected;
+    for (const Phase phase : phases) expected.push_back(answers(reference, rays, phase));
     for (Contender& contender : contenders)
         attempt(contender.result, [&] {
             contender.strategy->update(rays.pose());
-            compare(primary, answers(*contender.strategy, rays, Phase::primary), contender.result.agreement);
-            compare(shadow, answers(*contender.strategy, rays, Phase::shadow), contender.result.agreement);
+            for (std::size_t i = 0; i < phases.size(); ++i)
+                compare(expected[i], answers(*contender.strategy, rays, phases[i]), contender.result.agreement);
         });
 }
 
@@ -131,22 +134,23 @@ void refuse_differing(std::vector<Contender>& contenders)
     }
 }
 
-void time_frame(Contender& contender, const FrameRays& rays, const Executor& executor, PhaseTimes& times)
+void time_frame(Contender& contender, const FrameRays& rays, bool scattered, const Executor& executor, PhaseTimes& times)
 {
     times.update = seconds_to_update(*contender.strategy, rays.pose());
     times.primary = seconds_to_search(*contender.strategy, rays, Phase::primary, executor);
     times.shadow = seconds_to_search(*contender.strategy, rays, Phase::shadow, executor);
+    if (scattered) times.scattered = seconds_to_search(*contender.strategy, rays, Phase::scattered, executor);
 }
 
-void time_round(std::vector<Contender>& contenders, const std::vector<FrameRays>& frames, const Executor& executor,
-                std::size_t round)
+void time_round(std::vector<Contender>& contenders, const std::vector<FrameRays>& frames, bool scattered,
+                const Executor& executor, std::size_t round)
 {
     for (Contender& contender : contenders) contender.result.rounds.emplace_back(frames.size());
     for (std::size_t frame = 0; frame < frames.size(); ++frame)
         for (std::size_t turn = 0; turn < contenders.size(); ++turn) {
             Contender& contender = contenders[(turn + round) % contenders.size()];  // nobody always follows the same
-            attempt(contender.result,
-                    [&] { time_frame(contender, frames[frame], executor, contender.result.rounds.back()[frame]); });
+            PhaseTimes& times = contender.result.rounds.back()[frame];
+            attempt(contender.result, [&] { time_frame(contender, frames[frame], scattered, executor, times); });
         }
 }
 
@@ -197,15 +201,16 @@ Measurement measure(const Scene& scene, const MeasurePlan& plan)
 
     auto reference = plan.reference->make(scene, options);
     for (FrameRays& frame : frames) {
-        check_frame(*reference, frame, contenders);
+        check_frame(*reference, plan.scattered, frame, contenders);
         measurement.primary += frame.count(Phase::primary);
         measurement.shadow += frame.count(Phase::shadow);
+        if (plan.scattered) measurement.scattered += frame.count(Phase::scattered);
     }
     reference.reset();
     refuse_differing(contenders);
 
     for (int round = 0; round < plan.rounds; ++round)
-        time_round(contenders, frames, executor, static_cast<std::size_t>(round));
+        time_round(contenders, frames, plan.scattered, executor, static_cast<std::size_t>(round));
     for (Contender& contender : contenders)
         attempt(contender.result, [&] { contender.result.structure = contender.strategy->report(); });
     return measurement;

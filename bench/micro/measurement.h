@@ -15,6 +15,7 @@ struct MeasurePlan {
     int rounds = 5;   ///< how often all strategies go through all frames
     int width = 800, height = 592;
     int threads = 1;                           ///< that update and trace, >= 1
+    bool scattered = false;  ///< whether scattered rays are traced too
     RayMask shadow_mask = RayMask::opaque;     ///< as the renderer asks; taken as `all` where nothing transmits
     StrategyOptions options;                   ///< of every strategy; the executor is the measurement's own
     const StrategyEntry* reference = nullptr;  ///< answers are checked against its; its hits make the shadow rays
@@ -23,7 +24,7 @@ struct MeasurePlan {
 
 /// Seconds from beginning to end.
 struct PhaseTimes {
-    double update = 0.0, primary = 0.0, shadow = 0.0;
+    double update = 0.0, primary = 0.0, shadow = 0.0, scattered = 0.0;
 };
 
 /// Rays whose answers were compared with the reference's.
@@ -45,7 +46,7 @@ struct Measured {
 
 struct Measurement {
     std::vector<Measured> strategies;       ///< by MeasurePlan::contestants
-    std::uint64_t primary = 0, shadow = 0;  ///< rays of all frames
+    std::uint64_t primary = 0, shadow = 0, scattered = 0;  ///< rays of all frames
 };
 
 /// Checks every strategy's answers on all rays of all frames, then times update and rays. Batches of rays are handed to

@@ -1,5 +1,6 @@
 #include "bench/micro/summary.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <ostream>
 
@@ -12,6 +13,7 @@ constexpr ReportedPart parts[] = {
     {"shadow", [](const PhaseTimes& times) { return times.shadow; }, true},
     {"trace", [](const PhaseTimes& times) { return times.primary + times.shadow; }, true},
     {"frame", [](const PhaseTimes& times) { return times.update + times.primary + times.shadow; }, true},
+    {"scattered", [](const PhaseTimes& times) { return times.scattered; }, true},
 };
 
 template <typename... Values>
@@ -22,10 +24,10 @@ std::string format(const char* pattern, Values... values)
     return text;
 }
 
-void write_line(std::ostream& out, const Measured& base, const Measured& measured)
+void write_line(std::ostream& out, bool scattered, const Measured& base, const Measured& measured)
 {
     out << format("  %-36s", measured.name.c_str());
-    for (const ReportedPart& part : parts) {
+    for (const ReportedPart& part : reported_parts(scattered)) {
         const Spread ratio = ratio_to(base, measured, part);
         out << format(" %9.1f ms x%6.3f [%6.3f %6.3f]", 1e3 * typical_seconds(measured, part), ratio.median,
                       ratio.least, ratio.most);
@@ -35,9 +37,9 @@ void write_line(std::ostream& out, const Measured& base, const Measured& measure
 
 }  // namespace
 
-std::span<const ReportedPart> reported_parts()
+std::span<const ReportedPart> reported_parts(bool scattered)
 {
-    return parts;
+    return {parts, std::size(parts) - (scattered ? 0 : 1)};
 }
 
 double round_seconds(const Measured& measured, std::size_t round, const ReportedPart& part)
@@ -73,6 +75,7 @@ std::uint64_t rays_of(const Measurement& measurement, const ReportedPart& part)
     std::uint64_t rays = 0;
     if (part.name == "primary" || part.name == "trace") rays += measurement.primary;
     if (part.name == "shadow" || part.name == "trace") rays += measurement.shadow;
+    if (part.name == "scattered") rays += measurement.scattered;
     return rays;
 }
 
@@ -85,7 +88,8 @@ const Measured* timed(const Measurement& measurement, std::string_view name)
 
 const Measured* best_peer(const Measurement& measurement)
 {
-    const ReportedPart& frame = parts[std::size(parts) - 1];
+    const ReportedPart& frame = *std::find_if(std::begin(parts), std::end(parts),
+                                              [](const ReportedPart& part) { return part.name == "frame"; });
     const Measured* best = nullptr;
     for (const Measured& measured : measurement.strategies)
         if (measured.is_peer && measured.fault.empty() &&
@@ -106,11 +110,12 @@ void write_table(std::ostream& out, std::string_view scene, const Measurement& m
     out << "  x update: this / " << base->name << "; x otherwise: " << base->name << " / this, so above 1 is faster; "
         << "median [least most] of the rounds; differ: rays per million unlike the reference\n";
     out << format("  %-36s", "strategy");
-    for (const ReportedPart& part : parts) out << format(" %35s", std::string(part.name).c_str());
+    const bool scattered = measurement.scattered > 0;
+    for (const ReportedPart& part : reported_parts(scattered)) out << format(" %35s", std::string(part.name).c_str());
     out << format(" %9s\n", "differ");
     for (const Measured& measured : measurement.strategies)
         if (measured.fault.empty())
-            write_line(out, *base, measured);
+            write_line(out, scattered, *base, measured);
         else
             out << "  " << measured.name << ": not timed: " << measured.fault << "\n";
 }

@@ -16,8 +16,8 @@ struct ReportedPart {
     bool faster_is_above_one;  ///< ratio is base / strategy (relative speed), else strategy / base (relative cost)
 };
 
-/// update, primary, shadow, trace (primary and shadow) and frame (all of it).
-std::span<const ReportedPart> reported_parts();
+/// update, primary, shadow, trace (primary and shadow), frame (all of these), and scattered, if that is wanted.
+std::span<const ReportedPart> reported_parts(bool scattered);
 
 /// Seconds that a part took in all frames of one round.
 double round_seconds(const Measured& measured, std::size_t round, const ReportedPart& part);

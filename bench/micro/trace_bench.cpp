@@ -19,7 +19,7 @@ namespace {
 constexpr const char* usage =
     "trace_bench [--scene=FILE]... [--strategies=a,b] [--base=embree|best] [--reference=NAME] [--rounds=5]\n"
     "            [--frames=10] [--size=800x592] [--threads=1] [--isa=NAME] [--precision=robust|fast]\n"
-    "            [--shadow-mask=opaque|all]\n"
+    "            [--scattered] [--shadow-mask=opaque|all]\n"
     "            [--grid-density=0.1] [--max-list=256] [--grid-depth=3] [Google Benchmark's own flags]\n"
     "A strategy may carry choices of its own: --strategies=grid,obb,obb+obb-top=list,embree+embree-rays=single.\n"
     "The base is what ratios are to: a strategy, written as among --strategies; or best, which of Embree's ways is "
@@ -27,6 +27,7 @@ constexpr const char* usage =
     "one whose frames, update and trace, take least in this run on this scene.\n"
     "The instruction set, e.g. AVX3, AVX2 or SSE4, holds for all, Embree too; without it, the best there is.\n"
     "Default scenes: BART's, found in the folder that FIRSTRAY_BART_DIR names. Default strategies: all but `list`.\n"
+    "Scattered rays start where primary rays hit, in random directions, and look for the closest hit.\n"
     "Shadow rays look at opaque primitives alone, as the renderer's do, or with --shadow-mask=all at all.\n"
     "The reference, whose answers the others must give, is by default the first strategy of our own.\n";
 
@@ -87,6 +88,8 @@ bool apply(std::string_view flag, std::string_view value, Settings& settings)
         plan.threads = whole_number(flag, value);
     else if (flag == "--isa")
         hold_to(value);
+    else if (flag == "--scattered")
+        plan.scattered = true;
     else if (flag == "--precision")
         plan.options.precision =
             choice<Precision>(flag, value, {"robust", Precision::robust}, {"fast", Precision::fast});
@@ -198,7 +201,7 @@ private:
 
 void register_benchmarks(SceneRun& run, const MeasurePlan& plan)
 {
-    for (const ReportedPart& part : reported_parts())
+    for (const ReportedPart& part : reported_parts(plan.scattered))
         for (std::size_t i = 0; i < plan.contestants.size(); ++i) {
             const std::string name = run.name() + "/" + std::string(part.name) + "/" + plan.contestants[i].name;
             benchmark::RegisterBenchmark(name.c_str(), [&run, &part, i](auto& state) { run.show(state, i, part); })

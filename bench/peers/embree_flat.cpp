@@ -62,7 +62,7 @@ private:
             root_from_group[i] = pose.root_from_node[group.node];
         }
         const auto carry_group = [&](std::size_t i) {
-            carry_vertices(pose, scene_.groups[shown_[i]], body_.vertices().data() + first[i]);
+            carry_vertices(pose, scene_.groups[shown_[i]], body_.vertices().data() + first[i], executor_);
         };
         if (executor_)
             executor_->for_each(shown_.size(), carry_group);

@@ -6,20 +6,25 @@
 
 namespace firstray {
 
+/// Memory on the boundary of a cache line; much of it in huge pages where the system has them, because it takes longer to
+/// be given pages of 4 KB than to fill them.
+/// throws  std::bad_alloc
+void* allocate_lines(std::size_t bytes);
+void free_lines(void* memory, std::size_t bytes);
+
 /// Allocates on boundaries of cache lines and does not write to what it hands out: a vector of plain data that is
 /// filled by many threads is then touched once.
 template <typename T>
 struct CacheLineAllocator {
     using value_type = T;
-    static constexpr std::align_val_t boundary{64};
 
     CacheLineAllocator() = default;
     template <typename Other>
     explicit CacheLineAllocator(const CacheLineAllocator<Other>&)
     {
     }
-    T* allocate(std::size_t count) { return static_cast<T*>(::operator new(count * sizeof(T), boundary)); }
-    void deallocate(T* data, std::size_t) { ::operator delete(data, boundary); }
+    T* allocate(std::size_t count) { return static_cast<T*>(allocate_lines(count * sizeof(T))); }
+    void deallocate(T* data, std::size_t count) { free_lines(data, count * sizeof(T)); }
     /// Value-initialisation is what vector::resize asks for; plain data is left as it is.
     template <typename U>
     void construct(U* place)

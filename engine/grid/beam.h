@@ -28,7 +28,8 @@ struct BeamRays {
     glm::vec3 apex{0.0f};
     int packets = 0;
     alignas(64) Lane direction[3];
-    alignas(64) Lane length;  ///< largest component of the direction in magnitude
+    alignas(64) Lane length;          ///< largest component of the direction in magnitude
+    alignas(64) Lane inverse_length;  ///< 1 / length
     alignas(64) Lane t_min;
     alignas(64) Lane t;  ///< where the ray ends: at its best hit, if it has one; minus infinity: nothing is looked for
     alignas(64) Lane u;

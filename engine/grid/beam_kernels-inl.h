@@ -164,7 +164,7 @@ HWY_INLINE std::uint32_t make_beam_triangles(const TrianglePack& pack, const Bea
         const V edge = hn::Load(d, pack.edge + lane), distance = hn::Add(largest(a[0]), edge);
         V error = hn::MulAdd(per_size, hn::Mul(edge, distance), hn::MulAdd(per_edge, edge, least_error));
 
-        V n[3][3], normal[3];
+        V n[3][3];
         for (int i = 0; i < 3; ++i) {
             const int j = (i + 1) % 3, k = (i + 2) % 3;
             V sum[3];
@@ -174,9 +174,6 @@ HWY_INLINE std::uint32_t make_beam_triangles(const TrianglePack& pack, const Bea
             }
             cross(e[i], sum, n[i]);
         }
-        cross(e[1], e[2], normal);
-        const V height =
-            hn::Add(hn::Add(hn::Mul(normal[0], a[0][0]), hn::Mul(normal[1], a[0][1])), hn::Mul(normal[2], a[0][2]));
 
         // The volume between the apex and the triangle has the sign that the sides of a hit have. Seen edge-on, both
         // signs may occur: nothing is certain then.
@@ -187,10 +184,7 @@ HWY_INLINE std::uint32_t make_beam_triangles(const TrianglePack& pack, const Bea
         const V flip = hn::And(volume, hn::SignBit(d));
         auto apart = hn::Lt(far, zero);
         for (int i = 0; i < 3; ++i) {
-            for (int axis = 0; axis < 3; ++axis) {
-                n[i][axis] = hn::Xor(n[i][axis], flip);
-                hn::Store(n[i][axis], d, out.side[i][axis] + lane);
-            }
+            for (int axis = 0; axis < 3; ++axis) n[i][axis] = hn::Xor(n[i][axis], flip);
             const auto most_along = [&](const V& factor, int side) HWY_ATTR {
                 return hn::Max(hn::Mul(factor, hn::Set(d, bounds.lo[side])),
                                hn::Mul(factor, hn::Set(d, bounds.hi[side])));
@@ -199,13 +193,22 @@ HWY_INLINE std::uint32_t make_beam_triangles(const TrianglePack& pack, const Bea
                                    hn::Mul(n[i][beam.k], forward));
             apart = hn::Or(apart, hn::Lt(hn::Add(most, error), zero));
         }
+        const std::uint32_t met = bits_of(d, hn::AndNot(apart, hn::Eq(edge, edge)));
+        if (met == 0) continue;
+        found |= met << lane;
+
+        V normal[3];
+        cross(e[1], e[2], normal);
+        const V height =
+            hn::Add(hn::Add(hn::Mul(normal[0], a[0][0]), hn::Mul(normal[1], a[0][1])), hn::Mul(normal[2], a[0][2]));
+        for (int i = 0; i < 3; ++i)
+            for (int axis = 0; axis < 3; ++axis) hn::Store(n[i][axis], d, out.side[i][axis] + lane);
         for (int axis = 0; axis < 3; ++axis) hn::Store(normal[axis], d, out.normal[axis] + lane);
         hn::Store(height, d, out.height + lane);
         hn::Store(hn::Mul(largest(e[1]), largest(e[2])), d, out.span + lane);
         hn::Store(distance, d, out.distance + lane);
         hn::Store(error, d, out.error + lane);
         hn::Store(near, d, out.near + lane);
-        found |= bits_of(d, hn::AndNot(apart, hn::Eq(edge, edge))) << lane;
     }
     return found;
 }

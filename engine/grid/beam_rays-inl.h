@@ -68,6 +68,7 @@ HWY_INLINE void load_rays(const RayTile<float>& tile, const std::int32_t* lanes,
             length = hn::Max(length, hn::Abs(component));
         }
         hn::Store(length, d, rays.length.data() + to);
+        hn::Store(hn::Div(hn::Set(d, 1.0f), length), d, rays.inverse_length.data() + to);
         hn::Store(take(tile.t_min), d, rays.t_min.data() + to);
         const auto end = take(tile.t_max);
         const auto is_ray = hn::FirstN(d, static_cast<std::size_t>(std::clamp(count - first, 0, kernel_lanes)));

@@ -1,133 +1,180 @@
 #include "engine/grid/bin.h"
 
 #include <algorithm>
-#include <functional>
+#include <limits>
 
+#include "engine/grid/entry_kernels.h"
 #include "engine/primitive/triangle_box.h"
 
 namespace firstray {
 namespace {
 
-struct Reference {
-    std::uint32_t cell, entry;
-};
+using Reference = BinScratch::Reference;
+using Piece = BinScratch::Piece;
+
+/// The cells of a small triangle's box are listed without a look at the triangle: that takes longer than to copy it to the
+/// few that it does not meet.
+constexpr std::uint64_t too_few_to_test = 8;
+
+/// A thread is not worth waking for less.
+constexpr std::size_t least_piece = 4096;
 
 std::uint32_t cell_index(const Grid& grid, const glm::ivec3& c)
 {
     return static_cast<std::uint32_t>(c.x + grid.dims.x * (c.y + grid.dims.y * c.z));
 }
 
-/// Finds cells with multiplications: the rounding of a cell's inverse is a small part of the pad.
-struct CellFinder {
-    glm::vec3 lo, scale, last;
-    float pad;
-
-    CellFinder(const Grid& grid, float wide)
-        : lo(grid.lo), scale(1.0f / grid.cell), last(grid.dims - 1), pad(wide)
+/// Lists entries of one piece in their cells.
+class Lister {
+public:
+    Lister(const Grid& grid, const GridEntries& entries, std::uint64_t most, Piece& piece)
+        : grid_(grid), entries_(entries), finder_(grid, entries.pad), most_(most), piece_(piece)
     {
     }
-    CellRange cells(const Aabb& box) const
-    {
-        const glm::vec3 from = (box.lo - pad - lo) * scale, to = (box.hi + pad - lo) * scale;
-        return {glm::ivec3(glm::clamp(from, glm::vec3(0.0f), last)), glm::ivec3(glm::clamp(to, glm::vec3(0.0f), last))};
-    }
-};
 
-/// Calls visit(cell) for each cell that the entry overlaps.
-template <typename Visit>
-void for_each_cell(const Grid& grid, const GridEntries& entries, std::uint32_t entry, const CellRange& range,
-                   Visit&& visit)
-{
-    const glm::ivec3 last = range.hi - range.lo;
-    const auto visit_all = [&](auto&& overlaps) {
+    void list(std::span<const std::uint32_t> chosen)
+    {
+        const auto quadrics = std::partition_point(chosen.begin(), chosen.end(),
+                                                   [&](std::uint32_t entry) { return entries_.is_triangle(entry); });
+        const std::span<const std::uint32_t> triangles{chosen.begin(), quadrics};
+        for (std::size_t first = 0; first < triangles.size() && piece_.estimate <= most_; first += pack_size)
+            list_block(triangles.subspan(first, std::min<std::size_t>(pack_size, triangles.size() - first)));
+        for (auto entry = quadrics; entry != chosen.end() && piece_.estimate <= most_; ++entry) {
+            const CellRange range = cells_of(grid_, entries_.box(*entry), entries_.pad);
+            add_estimate(range);
+            add_all(range, *entry);
+        }
+        piece_.references.resize(count_);
+    }
+
+private:
+    void list_block(std::span<const std::uint32_t> triangles)
+    {
+        RangeBlock ranges;
+        find_ranges(entries_, triangles, finder_, ranges);
+        piece_.estimate += triangles.size();
+        for (std::size_t lane = 0; lane < triangles.size(); ++lane) {
+            if ((ranges.wide >> lane & 1) == 0)
+                add(ranges.lowest[lane], triangles[lane]);
+            else
+                list_wide({{ranges.lo[0][lane], ranges.lo[1][lane], ranges.lo[2][lane]},
+                           {ranges.hi[0][lane], ranges.hi[1][lane], ranges.hi[2][lane]}},
+                          triangles[lane]);
+        }
+    }
+
+    void list_wide(const CellRange& range, std::uint32_t entry)
+    {
+        add_estimate(range);
+        --piece_.estimate;  // it was counted as one already
+        if (range.cells() <= too_few_to_test) return add_all(range, entry);
+        if (piece_.estimate > most_) return;
+        const RootTriangle<float> t = entries_.triangle(entry);
+        const glm::vec3 pad(entries_.pad);
+        const TriangleBoxOverlap overlap(t.v[0], t.v[1], t.v[2], grid_.cell + 2.0f * pad);
+        for_each_cell(range, [&](const glm::ivec3& c) {
+            if (overlap.meets(grid_.lo + grid_.cell * glm::vec3(c) - pad)) add(cell_index(grid_, c), entry);
+        });
+    }
+
+    void add_estimate(const CellRange& range)
+    {
+        const glm::u64vec3 n(range.hi - range.lo + 1);
+        piece_.estimate += std::min(n.x * n.y * n.z, n.x * n.y + n.y * n.z + n.z * n.x);
+    }
+
+    void add_all(const CellRange& range, std::uint32_t entry)
+    {
+        if (piece_.estimate > most_) return;
+        for_each_cell(range, [&](const glm::ivec3& c) { add(cell_index(grid_, c), entry); });
+    }
+
+    template <typename Visit>
+    static void for_each_cell(const CellRange& range, const Visit& visit)
+    {
         for (int z = range.lo.z; z <= range.hi.z; ++z)
             for (int y = range.lo.y; y <= range.hi.y; ++y)
-                for (int x = range.lo.x; x <= range.hi.x; ++x)
-                    if (overlaps(glm::ivec3(x, y, z))) visit(cell_index(grid, {x, y, z}));
-    };
-    // In a row of cells along one axis, the part between two of its planes is never empty: no test needed.
-    const int wide_axes = (last.x > 0) + (last.y > 0) + (last.z > 0);
-    if (wide_axes <= 1 || !entries.is_triangle(entry)) {
-        visit_all([](const glm::ivec3&) { return true; });
-        return;
+                for (int x = range.lo.x; x <= range.hi.x; ++x) visit(glm::ivec3(x, y, z));
     }
-    const RootTriangle<float>& t = entries.triangles[entry];
-    const glm::vec3 pad(entries.pad);
-    const TriangleBoxOverlap overlap(t.v[0], t.v[1], t.v[2], grid.cell + 2.0f * pad);
-    visit_all([&](const glm::ivec3& c) { return overlap.meets(grid.lo + grid.cell * glm::vec3(c) - pad); });
+
+    void add(std::uint32_t cell, std::uint32_t entry)
+    {
+        ++piece_.places[cell];
+        if (count_ == piece_.references.size()) piece_.references.resize(2 * count_);
+        piece_.references[count_++] = {cell, entry};
+    }
+
+    const Grid& grid_;
+    const GridEntries& entries_;
+    CellFinder finder_;
+    std::uint64_t most_;
+    Piece& piece_;
+    std::size_t count_ = 0;  ///< of references; there is room for more
+};
+
+/// Turns counts into places: of a cell's list, a piece's share follows those of the pieces before.
+std::uint32_t place_all(std::span<Piece> pieces, std::vector<std::uint32_t>& first)
+{
+    std::uint32_t total = 0;
+    for (std::size_t cell = 0; cell + 1 < first.size(); ++cell) {
+        first[cell] = total;
+        for (Piece& piece : pieces) {
+            const std::uint32_t count = piece.places[cell];
+            piece.places[cell] = total;
+            total += count;
+        }
+    }
+    return first.back() = total;
 }
 
 }  // namespace
 
 CellRange cells_of(const Grid& grid, const Aabb& box, float pad)
 {
-    return CellFinder(grid, pad).cells(box);
-}
-
-RawVector<CellRange> ranges_of(const Grid& grid, const GridEntries& entries, std::span<const std::uint32_t> chosen,
-                               const Executor* executor)
-{
-    RawVector<CellRange> ranges(chosen.size());
-    const CellFinder finder(grid, entries.pad);
-    for_pieces(executor, chosen.size(), 8192, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) ranges[i] = finder.cells(entries.boxes[chosen[i]]);
-    });
-    return ranges;
-}
-
-std::uint64_t estimate_references(std::span<const CellRange> ranges)
-{
-    std::uint64_t total = 0;
-    for (const CellRange& range : ranges) {
-        const glm::u64vec3 n(range.hi - range.lo + 1);
-        total += std::min(n.x * n.y * n.z, n.x * n.y + n.y * n.z + n.z * n.x);
-    }
-    return total;
-}
-
-CellLists bin(const Grid& grid, const GridEntries& entries, std::span<const std::uint32_t> chosen,
-              std::span<const CellRange> ranges, const Executor* executor)
-{
-    // Every piece of the entries makes its references; a piece's share of a cell's list follows those of the pieces
-    // before.
-    const std::size_t pieces = executor && chosen.size() > 4096 ? static_cast<std::size_t>(executor->threads()) : 1;
-    const std::size_t cells = grid.cells();
-    std::vector<std::vector<Reference>> references(pieces);
-    std::vector<std::vector<std::uint32_t>> place(pieces);  // by piece, by cell: first how many, then where to
-    const auto for_each_piece = [&](const std::function<void(std::size_t)>& body) {
-        if (pieces > 1)
-            executor->for_each(pieces, body);
-        else
-            body(0);
+    const CellFinder finder(grid, pad);
+    const auto cell = [&](const glm::vec3& at) {
+        return glm::ivec3(glm::clamp((at - finder.lo) * finder.scale, glm::vec3(0.0f), finder.last));
     };
-    for_each_piece([&](std::size_t piece) {
-        const std::size_t begin = chosen.size() * piece / pieces, end = chosen.size() * (piece + 1) / pieces;
-        place[piece].resize(cells);
-        references[piece].reserve((end - begin) * 2);
-        for (std::size_t i = begin; i < end; ++i)
-            for_each_cell(grid, entries, chosen[i], ranges[i], [&](std::uint32_t cell) {
-                ++place[piece][cell];
-                references[piece].push_back({cell, chosen[i]});
-            });
-    });
+    return {cell(box.lo - pad), cell(box.hi + pad)};
+}
 
-    CellLists lists;
-    lists.first.resize(cells + 1);
-    std::uint32_t total = 0;
-    for (std::size_t cell = 0; cell < cells; ++cell) {
-        lists.first[cell] = total;
-        for (std::vector<std::uint32_t>& piece : place) {
-            const std::uint32_t count = piece[cell];
-            piece[cell] = total;
-            total += count;
+std::uint64_t BinScratch::bytes() const
+{
+    std::uint64_t sum = 0;
+    for (const Piece& piece : pieces)
+        sum += sizeof(Reference) * piece.references.capacity() + 4 * piece.places.capacity();
+    return sum;
+}
+
+bool bin(const Grid& grid, const GridEntries& entries, std::span<const std::uint32_t> chosen, std::uint64_t most,
+         const Executor* executor, BinScratch& scratch, CellLists& lists)
+{
+    if (grid.cells() == 1) most = std::numeric_limits<std::uint64_t>::max();
+    const std::size_t count = std::clamp<std::size_t>(chosen.size() / least_piece, 1,
+                                                      executor ? static_cast<std::size_t>(executor->threads()) : 1);
+    scratch.pieces.resize(std::max(count, scratch.pieces.size()));
+    const std::span<Piece> pieces(scratch.pieces.data(), count);
+    for_pieces(executor, count, 1, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t p = begin; p < end; ++p) {
+            const std::size_t from = chosen.size() * p / count, to = chosen.size() * (p + 1) / count;
+            pieces[p].references.resize(std::max((to - from) * 3 / 2, least_piece));
+            pieces[p].places.assign(grid.cells(), 0);
+            pieces[p].estimate = 0;
+            Lister(grid, entries, most, pieces[p]).list(chosen.subspan(from, to - from));
         }
-    }
-    lists.first[cells] = total;
-    lists.entries.resize(total);
-    for_each_piece([&](std::size_t piece) {
-        for (const Reference& r : references[piece]) lists.entries[place[piece][r.cell]++] = r.entry;
     });
-    return lists;
+    std::uint64_t estimate = 0;
+    for (const Piece& piece : pieces) estimate += piece.estimate;
+    if (estimate > most) return false;
+
+    lists.first.resize(grid.cells() + 1);
+    lists.entries.clear();
+    lists.entries.resize(place_all(pieces, lists.first));
+    for_pieces(executor, count, 1, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t p = begin; p < end; ++p)
+            for (const Reference& r : pieces[p].references) lists.entries[pieces[p].places[r.cell]++] = r.entry;
+    });
+    return true;
 }
 
 }  // namespace firstray

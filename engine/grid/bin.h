@@ -34,19 +34,28 @@ struct CellRange {
 };
 CellRange cells_of(const Grid& grid, const Aabb& box, float pad);
 
-/// The cells that the boxes of the given entries reach, one range for each.
-/// executor  null: on this thread
-RawVector<CellRange> ranges_of(const Grid& grid, const GridEntries& entries, std::span<const std::uint32_t> chosen,
-                               const Executor* executor);
+/// What bin() works with; its memory is used again.
+struct BinScratch {
+    struct Reference {
+        std::uint32_t cell, entry;
+    };
+    /// What a part of the entries comes to.
+    struct Piece {
+        RawVector<Reference> references;
+        std::vector<std::uint32_t> places;  ///< by cell: how many, then where the next one goes
+        std::uint64_t estimate = 0;
+    };
+    std::vector<Piece> pieces;
+    std::uint64_t bytes() const;
+};
 
 /// Lists each of the given entries in every cell that it overlaps: triangles exactly (plus pad), others by their boxes.
-/// ranges    ranges_of() the same
-/// executor  null: on this thread
-CellLists bin(const Grid& grid, const GridEntries& entries, std::span<const std::uint32_t> chosen,
-              std::span<const CellRange> ranges, const Executor* executor);
-
-/// An estimate, from boxes alone, of how many references bin() would make: a triangle of many cells is taken for a
-/// surface.
-std::uint64_t estimate_references(std::span<const CellRange> ranges);
+/// most      references at most, by an estimate from boxes in which a triangle of many cells is taken for a surface; a
+///           grid of one cell is not limited
+/// executor  null: on this thread. The lists do not depend on it.
+/// lists     what it held before is gone, its memory is used again
+/// returns   whether they are made: false where they would be too long
+bool bin(const Grid& grid, const GridEntries& entries, std::span<const std::uint32_t> chosen, std::uint64_t most,
+         const Executor* executor, BinScratch& scratch, CellLists& lists);
 
 }  // namespace firstray

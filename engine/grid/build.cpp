@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "engine/grid/bin.h"
+#include "engine/grid/entry_kernels.h"
 #include "engine/grid/pack_lists.h"
 #include "engine/grid/resolution.h"
 
@@ -43,41 +44,34 @@ std::uint64_t allowed_references(double allowance, std::size_t entries)
     return static_cast<std::uint64_t>(allowance * static_cast<double>(entries)) + free_references;
 }
 
-struct ChosenGrid {
-    Grid grid;
-    RawVector<CellRange> ranges;  ///< of the entries
-};
-
-/// A grid over a box for so many primitives, coarser where it would make too many references.
-ChosenGrid choose_grid(const Aabb& box, const GridEntries& entries, std::span<const std::uint32_t> chosen,
-                       float density, double allowance, const Executor* executor)
+/// Sets a node's grid over a box, coarser where it would make too many references, and the lists of its cells.
+void choose_grid(const Aabb& box, const GridEntries& entries, std::span<const std::uint32_t> chosen, float density,
+                 double allowance, const Executor* executor, BinScratch& scratch, GridNode& node)
 {
-    Grid grid;
+    Grid& grid = node.grid;
     grid.lo = box.lo - entries.pad;
     const glm::vec3 size = box.size() + 2.0f * entries.pad;
+    const std::uint64_t most = allowed_references(allowance, chosen.size());
     for (;; density *= 0.25f) {
         grid.dims = choose_grid_dims(size, chosen.size(), density);
         grid.cell = size / glm::vec3(grid.dims);
-        RawVector<CellRange> ranges = ranges_of(grid, entries, chosen, executor);
-        if (grid.cells() == 1 || estimate_references(ranges) <= allowed_references(allowance, chosen.size()))
-            return {grid, std::move(ranges)};
+        if (bin(grid, entries, chosen, most, executor, scratch, node.lists)) return;
     }
 }
 
-std::unique_ptr<GridNode> build_node(const Aabb& box, const GridEntries& entries, std::span<const std::uint32_t> chosen,
-                                     float density, double allowance, const GridOptions& options, int levels_left,
-                                     const Executor* executor);
+void build_node(const Aabb& box, const GridEntries& entries, std::span<const std::uint32_t> chosen, float density,
+                double allowance, const GridOptions& options, int levels_left, const Executor* executor,
+                BinScratch& scratch, GridNode& node);
 
 /// The grid inside a crowded cell, over what lies in the cell, or null where it would make no progress.
 std::unique_ptr<GridNode> build_child(const Grid& parent, std::uint32_t cell, std::span<const std::uint32_t> listed,
                                       const GridEntries& entries, const GridOptions& options, int levels_left,
                                       double allowance)
 {
-    Aabb content;
-    for (const std::uint32_t entry : listed) content.grow(entries.boxes[entry]);
-    const Aabb box = clipped(content, cell_box(parent, cell));
-    std::unique_ptr<GridNode> node =
-        build_node(box, entries, listed, options.subdensity, allowance, options, levels_left, nullptr);
+    const Aabb box = clipped(bounds_of(entries, listed, nullptr), cell_box(parent, cell));
+    auto node = std::make_unique<GridNode>();
+    BinScratch scratch;
+    build_node(box, entries, listed, options.subdensity, allowance, options, levels_left, nullptr, scratch, *node);
     std::size_t fullest = 0;
     for (std::uint32_t c = 0; c < node->grid.cells(); ++c) fullest = std::max(fullest, node->lists.of(c).size());
     const bool progress =
@@ -85,52 +79,29 @@ std::unique_ptr<GridNode> build_child(const Grid& parent, std::uint32_t cell, st
     return progress ? std::move(node) : nullptr;
 }
 
-std::unique_ptr<GridNode> build_node(const Aabb& box, const GridEntries& entries, std::span<const std::uint32_t> chosen,
-                                     float density, double allowance, const GridOptions& options, int levels_left,
-                                     const Executor* executor)
+void build_node(const Aabb& box, const GridEntries& entries, std::span<const std::uint32_t> chosen, float density,
+                double allowance, const GridOptions& options, int levels_left, const Executor* executor,
+                BinScratch& scratch, GridNode& node)
 {
-    auto node = std::make_unique<GridNode>();
-    const ChosenGrid found = choose_grid(box, entries, chosen, density, allowance, executor);
-    node->grid = found.grid;
-    node->lists = bin(found.grid, entries, chosen, found.ranges, executor);
-    if (levels_left <= 1) return node;
+    choose_grid(box, entries, chosen, density, allowance, executor, scratch, node);
+    if (levels_left <= 1) return;
     const double left = allowance * static_cast<double>(chosen.size()) /
-                        static_cast<double>(std::max<std::size_t>(node->lists.entries.size(), 1));
-    for (std::uint32_t cell = 0; cell < node->grid.cells(); ++cell)
-        if (node->lists.of(cell).size() > static_cast<std::size_t>(options.max_list))
-            node->children.push_back({cell, nullptr});
-    for_pieces(executor, node->children.size(), 1, [&](std::size_t begin, std::size_t end) {
+                        static_cast<double>(std::max<std::size_t>(node.lists.entries.size(), 1));
+    for (std::uint32_t cell = 0; cell < node.grid.cells(); ++cell)
+        if (node.lists.of(cell).size() > static_cast<std::size_t>(options.max_list))
+            node.children.push_back({cell, nullptr});
+    for_pieces(executor, node.children.size(), 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
-            const std::uint32_t cell = node->children[i].cell;
-            node->children[i].node =
-                build_child(node->grid, cell, node->lists.of(cell), entries, options, levels_left - 1, left);
+            const std::uint32_t cell = node.children[i].cell;
+            node.children[i].node =
+                build_child(node.grid, cell, node.lists.of(cell), entries, options, levels_left - 1, left);
         }
     });
-    return node;
-}
-
-/// The entries with the largest boxes, at most a pack of them, ascending: they would be listed in very many cells, and
-/// rays meet them often.
-std::vector<std::uint32_t> largest_triangles(const GridEntries& entries, const Aabb& bounds)
-{
-    const auto half_area = [](const glm::vec3& d) { return d.x * d.y + d.y * d.z + d.z * d.x; };
-    const float large = half_area(bounds.size()) / 256.0f;
-    std::vector<std::pair<float, std::uint32_t>> found;
-    for (std::uint32_t entry = 0; entries.is_triangle(entry); ++entry) {
-        const float area = half_area(entries.boxes[entry].size());
-        if (area > large) found.emplace_back(-area, entry);
-    }
-    const std::size_t kept = std::min<std::size_t>(found.size(), pack_size);
-    std::partial_sort(found.begin(), found.begin() + static_cast<std::ptrdiff_t>(kept), found.end());
-    std::vector<std::uint32_t> result;
-    for (std::size_t i = 0; i < kept; ++i) result.push_back(found[i].second);
-    std::sort(result.begin(), result.end());
-    return result;
 }
 
 /// Lists that have their places in a structure and wait to be filled.
 struct Filling {
-    std::vector<ListToFill> lists;
+    std::vector<ListToFill>& lists;
     PackCounts counts;
 };
 
@@ -162,28 +133,60 @@ void lay_out(const GridNode& node, const GridEntries& entries, std::uint32_t lev
     }
 }
 
-/// What there is to know before the first cell: what goes into cells and what does not.
+float half_area(const glm::vec3& d)
+{
+    return d.x * d.y + d.y * d.z + d.z * d.x;
+}
+
+/// What there is to know before the first cell.
 struct Beginning {
     Aabb bounds;
-    std::vector<std::uint32_t> large, chosen;
+    /// Triangles that are kept out of the cells, ascending, at most a pack of them: they would be listed in very many,
+    /// and rays meet them often. All others are chosen.
+    std::vector<std::uint32_t> large;
 };
 
-/// Sets the pad of entries and structure.
-Beginning begin(GridEntries& entries, GridStructure& structure)
+/// The bounds of all entries and the largest triangles.
+Beginning survey(const GridEntries& entries, const Executor* executor)
 {
     Beginning begun;
-    for (const Aabb& box : entries.boxes) begun.bounds.grow(box);
-    begun.bounds.grow(entries.room);
+    LargestTriangles largest;
+    begun.bounds = bounds_of(entries, executor, &largest);
+    Aabb with_room = begun.bounds;
+    with_room.grow(entries.room);
+    const bool too_wide = half_area(with_room.size()) > entries.most_room * half_area(begun.bounds.size());
+    if (begun.bounds.empty() || !too_wide) begun.bounds = with_room;
     if (begun.bounds.empty()) begun.bounds = {glm::vec3(0.0f), glm::vec3(0.0f)};
+
+    for (const LargestTriangles::Triangle& triangle : largest.found())
+        if (triangle.half_area > half_area(begun.bounds.size()) / 256.0f) begun.large.push_back(triangle.entry);
+    std::sort(begun.large.begin(), begun.large.end());
+    return begun;
+}
+
+/// Takes some, ascending, out of 0, 1, 2, ...
+void leave_out(std::span<const std::uint32_t> some, RawVector<std::uint32_t>& numbers)
+{
+    for (std::size_t i = 0; i < some.size(); ++i) {
+        const auto next = numbers.begin() + some[i] + 1;
+        const auto end = i + 1 < some.size() ? numbers.begin() + some[i + 1] : numbers.end();
+        std::copy(next, end, next - 1 - static_cast<std::ptrdiff_t>(i));
+    }
+    numbers.resize(numbers.size() - some.size());
+}
+
+/// Sets the pad of entries and structure, and chosen to what goes into cells.
+Beginning begin(GridEntries& entries, GridStructure& structure, RawVector<std::uint32_t>& chosen,
+                const Executor* executor)
+{
+    chosen.clear();
+    chosen.resize(entries.count());
+    std::iota(chosen.begin(), chosen.end(), 0u);
+    Beginning begun = survey(entries, executor);
+    leave_out(begun.large, chosen);
     structure.largest = largest_coordinate(begun.bounds);
     structure.blur = entries.blur;
     structure.pad = entries.pad = std::max(structure.largest * pad_factor + entries.blur, 1e-30f);
-
-    begun.large = largest_triangles(entries, begun.bounds);
-    begun.chosen.resize(entries.count());
-    std::iota(begun.chosen.begin(), begun.chosen.end(), 0u);
-    std::erase_if(begun.chosen,
-                  [&](std::uint32_t e) { return std::binary_search(begun.large.begin(), begun.large.end(), e); });
     return begun;
 }
 
@@ -197,6 +200,19 @@ void fill(GridStructure& structure, const Beginning& begun, const GridEntries& e
     for_pieces(executor, filling.lists.size(), 64, [&](std::size_t first, std::size_t last) {
         for (std::size_t i = first; i < last; ++i) fill_list(structure.lists[i], filling.lists[i], entries, structure);
     });
+}
+
+/// Forgets what a structure held, but keeps its memory.
+void empty(GridStructure& structure)
+{
+    structure.grids.clear();
+    structure.cells.clear();
+    structure.lists.clear();
+    structure.packs.clear();
+    structure.boxes.clear();
+    structure.quadrics.clear();
+    structure.depth = structure.largest_list = 0;
+    structure.references = 0;
 }
 
 /// A grid of one cell that lists what it is given.
@@ -221,19 +237,35 @@ GridOptions grid_options(const StrategyOptions& options)
     return grid;
 }
 
+std::uint64_t BuildScratch::bytes() const
+{
+    return bin.bytes() + 4 * chosen.capacity() + top.bytes() + to_fill.capacity() * sizeof(ListToFill);
+}
+
+void build_grid(GridEntries& entries, const GridOptions& options, const Executor* executor, BuildScratch& scratch,
+                GridStructure& into, std::uint64_t& peak_bytes)
+{
+    empty(into);
+    const Beginning begun = begin(entries, into, scratch.chosen, executor);
+    GridNode top;
+    top.lists = std::move(scratch.top);
+    build_node(begun.bounds, entries, scratch.chosen, options.density, most_references, options, options.depth,
+               executor, scratch.bin, top);
+    scratch.to_fill.clear();
+    Filling filling{scratch.to_fill, {}};
+    into.large = reserve_list(begun.large, entries, filling.counts);
+    lay_out(top, entries, 1, into, filling);
+    fill(into, begun, entries, filling, executor);
+    peak_bytes = std::max(peak_bytes, into.bytes() + top.bytes() + entries.bytes() + scratch.bytes());
+    scratch.top = std::move(top.lists);
+}
+
 GridStructure build_grid(GridEntries entries, const GridOptions& options, const Executor* executor,
                          std::uint64_t& peak_bytes)
 {
+    BuildScratch scratch;
     GridStructure structure;
-    const Beginning begun = begin(entries, structure);
-    const std::unique_ptr<GridNode> top = build_node(begun.bounds, entries, begun.chosen, options.density,
-                                                     most_references, options, options.depth, executor);
-    Filling filling;
-    structure.large = reserve_list(begun.large, entries, filling.counts);
-    lay_out(*top, entries, 1, structure, filling);
-    fill(structure, begun, entries, filling, executor);
-    peak_bytes = std::max(peak_bytes, structure.bytes() + top->bytes() + entries.bytes() + 4 * begun.chosen.capacity() +
-                                          filling.lists.capacity() * sizeof(ListToFill));
+    build_grid(entries, options, executor, scratch, structure, peak_bytes);
     return structure;
 }
 
@@ -241,18 +273,20 @@ TopGrid build_top(GridEntries& entries, const GridOptions& options, const Execut
 {
     TopGrid top;
     GridStructure& structure = top.structure;
-    const Beginning begun = begin(entries, structure);
-    std::unique_ptr<GridNode> node =
-        build_node(begun.bounds, entries, begun.chosen, options.density, most_references, options, 1, executor);
-    top.lists = std::move(node->lists);
-    top.allowance = most_references * static_cast<double>(begun.chosen.size()) /
+    BuildScratch scratch;
+    const Beginning begun = begin(entries, structure, scratch.chosen, executor);
+    GridNode node;
+    build_node(begun.bounds, entries, scratch.chosen, options.density, most_references, options, 1, executor,
+               scratch.bin, node);
+    top.lists = std::move(node.lists);
+    top.allowance = most_references * static_cast<double>(scratch.chosen.size()) /
                     static_cast<double>(std::max<std::size_t>(top.lists.entries.size(), 1));
-    structure.grids.push_back(node->grid);
-    structure.cells.resize(node->grid.cells());
+    structure.grids.push_back(node.grid);
+    structure.cells.resize(node.grid.cells());
     structure.depth = 1;
-    for (std::uint32_t cell = 0; cell < node->grid.cells(); ++cell)
+    for (std::uint32_t cell = 0; cell < node.grid.cells(); ++cell)
         if (!top.lists.of(cell).empty()) structure.cells[cell] = CellWord::list(cell);
-    Filling filling;
+    Filling filling{scratch.to_fill, {}};
     structure.large = reserve_list(begun.large, entries, filling.counts);
     fill(structure, begun, entries, filling, executor);
     return top;
@@ -271,7 +305,8 @@ GridStructure build_voxel(const TopGrid& top, std::uint32_t cell, const GridEntr
     structure.largest = top.structure.largest;
     structure.blur = top.structure.blur;
     structure.pad = top.structure.pad;
-    Filling filling;
+    std::vector<ListToFill> to_fill;
+    Filling filling{to_fill, {}};
     lay_out(*node, entries, 1, structure, filling);
     fill(structure, {}, entries, filling, nullptr);
     return structure;

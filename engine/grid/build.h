@@ -4,6 +4,7 @@
 #include "engine/core/executor.h"
 #include "engine/grid/bin.h"
 #include "engine/grid/grid.h"
+#include "engine/grid/pack_lists.h"
 #include "engine/strategy/root_geometry.h"
 #include "engine/strategy/strategy.h"
 
@@ -20,9 +21,21 @@ struct GridOptions {
 /// The shape that the user chose, defaults filled in.
 GridOptions grid_options(const StrategyOptions& options);
 
+/// What building works with; its memory is used again.
+struct BuildScratch {
+    BinScratch bin;
+    RawVector<std::uint32_t> chosen;  ///< entries that go into cells
+    CellLists top;
+    std::vector<ListToFill> to_fill;
+    std::uint64_t bytes() const;
+};
+
 /// Builds the recursive grid over entries, in their own system, anew. The result does not depend on the executor.
 /// executor    null: on this thread
+/// into        what it held before is gone, its memory is used again
 /// peak_bytes  raised to the most memory held at any time while building, entries and result included
+void build_grid(GridEntries& entries, const GridOptions& options, const Executor* executor, BuildScratch& scratch,
+                GridStructure& into, std::uint64_t& peak_bytes);
 GridStructure build_grid(GridEntries entries, const GridOptions& options, const Executor* executor,
                          std::uint64_t& peak_bytes);
 

@@ -7,22 +7,6 @@
 namespace firstray {
 namespace {
 
-RootTriangle<float> rounded(const RootTriangle<float>& t)
-{
-    return t;
-}
-
-RootTriangle<float> rounded(const RootTriangle<double>& t)
-{
-    const glm::vec3 v0(t.v[0]), v1(t.v[1]), v2(t.v[2]);
-    return {{v0, v1, v2}, longest_edge<float>(v0, v1, v2)};
-}
-
-Aabb bounds_of(const RootTriangle<float>& t)
-{
-    return {glm::min(glm::min(t.v[0], t.v[1]), t.v[2]), glm::max(glm::max(t.v[0], t.v[1]), t.v[2])};
-}
-
 Aabb rounded_outwards(const DAabb& box)
 {
     Aabb result;
@@ -33,42 +17,86 @@ Aabb rounded_outwards(const DAabb& box)
     return result;
 }
 
+void use_corners(GridEntries& entries, const RootGeometry<float>& geometry, const std::vector<PrimitiveId>&,
+                 const Executor*)
+{
+    entries.vertices = geometry.vertices();
+    entries.corners = geometry.corners();
+}
+
+/// Rounds what is held in double.
+void use_corners(GridEntries& entries, const RootGeometry<double>& geometry, const std::vector<PrimitiveId>& triangles,
+                 const Executor* executor)
+{
+    entries.own_vertices.reserve(3 * triangles.size() + 1);
+    entries.own_vertices.resize(3 * triangles.size());
+    for_pieces(executor, triangles.size(), 8192, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            const RootTriangle<double> t = geometry.triangle(triangles[i]);
+            for (std::size_t k = 0; k < 3; ++k) entries.own_vertices[3 * i + k] = glm::vec3(t.v[k]);
+        }
+    });
+}
+
 }  // namespace
+
+RootTriangle<float> GridEntries::triangle(std::uint32_t entry) const
+{
+    const glm::uvec3 place = corners ? corners[ids[entry] & ~transmitting_bit] : 3u * entry + glm::uvec3(0, 1, 2);
+    const glm::vec3* from = corners ? vertices : own_vertices.data();
+    const glm::vec3 &v0 = from[place.x], &v1 = from[place.y], &v2 = from[place.z];
+    return {{v0, v1, v2}, longest_edge<float>(v0, v1, v2)};
+}
+
+Aabb GridEntries::box(std::uint32_t entry) const
+{
+    if (!is_triangle(entry)) return quadric_boxes[entry - triangles];
+    const RootTriangle<float> t = triangle(entry);
+    return {glm::min(glm::min(t.v[0], t.v[1]), t.v[2]), glm::max(glm::max(t.v[0], t.v[1]), t.v[2])};
+}
+
+template <typename Real>
+void make_entries(const RootGeometry<Real>& geometry, const PrimitiveList& primitives, const Executor* executor,
+                  GridEntries& into)
+{
+    const std::vector<PrimitiveId>& triangles = primitives.triangles;
+    into.quadric_boxes.clear();
+    into.ids.clear();
+    into.ids.resize(triangles.size());
+    into.triangles = static_cast<std::uint32_t>(triangles.size());
+    for_pieces(executor, triangles.size(), 65536, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i)
+            into.ids[i] = triangles[i] | (geometry.transmits(triangles[i]) ? transmitting_bit : 0);
+    });
+    use_corners(into, geometry, triangles, executor);
+    for (const PrimitiveId id : primitives.quadrics) add_quadric(into, geometry.quadric(id));
+}
 
 template <typename Real>
 GridEntries make_entries(const RootGeometry<Real>& geometry, const PrimitiveList& primitives, const Executor* executor)
 {
     GridEntries entries;
-    const std::vector<PrimitiveId>& triangles = primitives.triangles;
-    entries.triangles.resize(triangles.size());
-    entries.ids.resize(triangles.size());
-    entries.boxes.resize(triangles.size());
-    for_pieces(executor, triangles.size(), 8192, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) {
-            const PrimitiveId id = triangles[i];
-            const RootTriangle<float> t = rounded(geometry.triangle(id));
-            entries.triangles[i] = t;
-            entries.ids[i] = id | (geometry.transmits(id) ? transmitting_bit : 0);
-            entries.boxes[i] = bounds_of(t);
-        }
-    });
-    for (const PrimitiveId id : primitives.quadrics) add_quadric(entries, geometry.quadric(id));
+    make_entries(geometry, primitives, executor, entries);
     return entries;
 }
 
 void add_triangle(GridEntries& entries, const RootTriangle<float>& triangle, PrimitiveId id, bool transmits)
 {
-    entries.triangles.push_back(triangle);
+    for (const glm::vec3& corner : triangle.v) entries.own_vertices.push_back(corner);
+    if (entries.own_vertices.capacity() == entries.own_vertices.size())
+        entries.own_vertices.reserve(2 * entries.own_vertices.size());
     entries.ids.push_back(id | (transmits ? transmitting_bit : 0));
-    entries.boxes.push_back(bounds_of(triangle));
+    ++entries.triangles;
 }
 
 void add_quadric(GridEntries& entries, const RootQuadric& quadric)
 {
     entries.ids.push_back(quadric.id);
-    entries.boxes.push_back(rounded_outwards(quadric.bounds));
+    entries.quadric_boxes.push_back(rounded_outwards(quadric.bounds));
 }
 
+template void make_entries(const RootGeometry<float>&, const PrimitiveList&, const Executor*, GridEntries&);
+template void make_entries(const RootGeometry<double>&, const PrimitiveList&, const Executor*, GridEntries&);
 template GridEntries make_entries(const RootGeometry<float>&, const PrimitiveList&, const Executor*);
 template GridEntries make_entries(const RootGeometry<double>&, const PrimitiveList&, const Executor*);
 

@@ -1,5 +1,8 @@
 #pragma once
 #include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
 
 #include "engine/core/aabb.h"
 #include "engine/core/aligned.h"
@@ -8,29 +11,39 @@
 
 namespace firstray {
 
-/// What is put into grids, in order: triangles in float, then quadrics. An *entry* is an index into these.
+/// What is put into grids, in order: triangles in float, then quadrics. An *entry* is an index into these. Corners of
+/// triangles are read where the geometry keeps them, which must outlive this, or are held here.
 struct GridEntries {
-    RawVector<Aabb> boxes;                     ///< of all entries
-    RawVector<RootTriangle<float>> triangles;  ///< of the first entries; the others are quadrics
-    RawVector<std::uint32_t> ids;              ///< of all entries: PrimitiveId; of triangles with transmitting_bit
-    Aabb room;                                 ///< the top grid covers at least this
+    RawVector<std::uint32_t> ids;    ///< PrimitiveIds; of triangles with transmitting_bit
+    std::uint32_t triangles = 0;     ///< how many come first
+    std::vector<Aabb> quadric_boxes; ///< by entry less `triangles`
+    const glm::vec3* vertices = nullptr;  ///< the geometry's, if corners are; what follows the last may be read
+    const glm::uvec3* corners = nullptr;  ///< into vertices, by PrimitiveId; null: they stand in own_vertices, by entry
+    RawVector<glm::vec3> own_vertices;    ///< three for each triangle; with room for one more
+    Aabb room;                            ///< the top grid covers this too ...
+    float most_room = std::numeric_limits<float>::infinity();  ///< ... unless that multiplies its surface by more
     float blur = 0.0f;  ///< how far the primitives that are tested may be from these, per coordinate
     float pad = 0.0f;   ///< boxes count as wider by it, on all sides; set by build_grid
 
-    std::uint32_t count() const { return static_cast<std::uint32_t>(boxes.size()); }
-    bool is_triangle(std::uint32_t entry) const { return entry < triangles.size(); }
+    std::uint32_t count() const { return static_cast<std::uint32_t>(ids.size()); }
+    bool is_triangle(std::uint32_t entry) const { return entry < triangles; }
+    RootTriangle<float> triangle(std::uint32_t entry) const;
+    Aabb box(std::uint32_t entry) const;
     std::uint64_t bytes() const
     {
-        return boxes.capacity() * sizeof(Aabb) + triangles.capacity() * sizeof(RootTriangle<float>) +
-               4 * ids.capacity();
+        return 4 * ids.capacity() + sizeof(Aabb) * quadric_boxes.capacity() + sizeof(glm::vec3) * own_vertices.capacity();
     }
 };
 
 /// Primitives of groups that are carried, in the root system.
+/// into  what it held before is gone, its memory is used again
+template <typename Real>
+void make_entries(const RootGeometry<Real>& geometry, const PrimitiveList& primitives, const Executor* executor,
+                  GridEntries& into);
 template <typename Real>
 GridEntries make_entries(const RootGeometry<Real>& geometry, const PrimitiveList& primitives, const Executor* executor);
 
-/// Appends a triangle; all of them must come before the first quadric.
+/// Appends a triangle that is held here; all of them must come before the first quadric.
 void add_triangle(GridEntries& entries, const RootTriangle<float>& triangle, PrimitiveId id, bool transmits);
 void add_quadric(GridEntries& entries, const RootQuadric& quadric);
 

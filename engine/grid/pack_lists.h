@@ -23,8 +23,7 @@ struct PackCounts {
 /// The places in a structure, behind those counted already, of a list of these entries.
 VoxelList reserve_list(std::span<const std::uint32_t> listed, const GridEntries& entries, PackCounts& counts);
 
-/// Sorts a list's triangles into clusters of sixteen and copies them to its places, which must exist. Different lists
-/// may be filled at the same time.
+/// Puts a list's entries into its places, which must exist. Different lists may be filled at the same time.
 void fill_list(const VoxelList& list, const ListToFill& to_fill, const GridEntries& entries, GridStructure& structure);
 
 }  // namespace firstray

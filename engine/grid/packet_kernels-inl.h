@@ -100,7 +100,8 @@ HWY_INLINE PacketHits test_packet(const ApexTriangle& p, PrimitiveId id, bool ex
                                    ? hn::Gt(hn::Abs(slope), hn::Mul(set(least_slope), hn::Mul(set(p.span), length)))
                                    : hn::FirstN(d, 0);
         auto is_placed = hn::And(is_sloped, hn::Ge(hn::Mul(t_size, length), set(least_distance * p.distance)));
-        const V t_error = hn::Mul(set(quotient_error), hn::Add(t_size, hn::Div(set(p.distance), length)));
+        const V per_length = hn::Load(d, rays.inverse_length.data() + lane);
+        const V t_error = hn::Mul(set(quotient_error), hn::Add(t_size, hn::Mul(set(p.distance), per_length)));
         const auto is_outside = hn::Or(hn::Lt(hn::Add(t, t_error), t_min), hn::Gt(hn::Sub(t, t_error), t_last));
         if (any_hit)
             is_placed = hn::Or(is_placed, hn::And(is_sloped, hn::And(hn::Gt(hn::Sub(t, t_error), t_min),

@@ -156,6 +156,13 @@ struct Search {
         return false;
     }
 
+    /// Asks for a pack that is tested soon.
+    static HWY_INLINE void fetch_ahead(const TrianglePack& pack)
+    {
+        for (std::size_t byte = 0; byte < sizeof pack; byte += 64)
+            __builtin_prefetch(reinterpret_cast<const std::uint8_t*>(&pack) + byte);
+    }
+
     HWY_INLINE bool pack(const TrianglePack& pack)
     {
         quest.cost.add_tests(pack);
@@ -198,8 +205,10 @@ struct Search {
     HWY_INLINE bool boxed(const PackBoxes& boxes, const TrianglePack* packs, float t_enter)
     {
         alignas(64) float entries[pack_size];
-        for (std::uint32_t met = boxes_met(boxes, walk, t_enter - walk.t_pad, stop, entries); met != 0;
-             met &= met - 1) {
+        const std::uint32_t all = boxes_met(boxes, walk, t_enter - walk.t_pad, stop, entries);
+        for (std::uint32_t later = all & (all - 1); later != 0; later &= later - 1)
+            fetch_ahead(packs[__builtin_ctz(later)]);
+        for (std::uint32_t met = all; met != 0; met &= met - 1) {
             const int lane = __builtin_ctz(met);
             if (entries[lane] <= stop && pack(packs[lane])) return true;
         }
@@ -257,7 +266,7 @@ struct RootPrimitives {
     TriangleHit<Real> triangle_of(const GridEntries& entries, std::uint32_t entry, PrimitiveId id, Real t_last) const
     {
         if constexpr (std::is_same_v<Real, float>)
-            return intersect_precisely(entries.triangles[entry], ray, precision, t_last);
+            return intersect_precisely(entries.triangle(entry), ray, precision, t_last);
         else
             return intersect_precisely(geometry.triangle(id), ray, precision, t_last);
     }

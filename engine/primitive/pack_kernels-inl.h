@@ -54,6 +54,7 @@ struct FilterRay {
     // Depth is forward * z. Hits are of interest from near_end to far_end, give or take what a margin says per error of
     // the sides.
     float near_end = 0.0f, near_margin = 0.0f, far_end = 0.0f, far_margin = 0.0f;
+    float depth_error, depth_error_per_edge;  ///< by how much a hit may lie before or behind all corners
     float base = 0.0f, speed = 0.0f;  ///< depth at walk t is base + speed * t
 
     /// Where the walk begins; nothing before it is of interest.
@@ -100,7 +101,10 @@ HWY_INLINE FilterRay make_filter_ray(const glm::dvec3& o, const glm::dvec3& d, c
     const float off = largest * 0x1p-20f + 2.0f * blur;
     f.error_per_edge = 12.0f * off;
     f.error = 2.0f * off * off + std::numeric_limits<float>::min();
+    f.depth_error = off;
+    f.depth_error_per_edge = 0.0f;
     if (loose > 0.0f) {
+        f.depth_error_per_edge = loose * 0x1p-5f;
         const float reach = static_cast<float>(std::max(std::max(std::abs(o.x), std::abs(o.y)), std::abs(o.z)));
         f.error_per_edge += loose * side_error<float> * (largest + reach);
     }
@@ -117,6 +121,9 @@ HWY_INLINE std::uint32_t candidates(const TrianglePack& pack, const FilterRay& r
     const auto forward = hn::Set(d, ray.forward), near_end = hn::Set(d, ray.near_end),
                far_end = hn::Set(d, ray.far_end), near_margin = hn::Set(d, ray.near_margin),
                far_margin = hn::Set(d, ray.far_margin);
+    const auto depth_error = hn::Set(d, ray.depth_error), depth_per_edge = hn::Set(d, ray.depth_error_per_edge);
+    const bool up = ray.forward > 0.0f;
+    const auto first = hn::Set(d, up ? ray.near_end : -ray.far_end), last = hn::Set(d, up ? ray.far_end : -ray.near_end);
     std::uint32_t found = 0;
     for (int lane = 0; lane < pack_size; lane += static_cast<int>(hn::Lanes(d))) {
         const auto along = [&](int corner, int axis) HWY_ATTR { return hn::Load(d, pack.v[corner][axis] + lane); };
@@ -132,10 +139,13 @@ HWY_INLINE std::uint32_t candidates(const TrianglePack& pack, const FilterRay& r
         const auto w = hn::NegMulAdd(x1, y0, hn::Mul(x0, y1));
         const auto least = hn::Min(hn::Min(u, v), w), most = hn::Max(hn::Max(u, v), w);
         const auto error = hn::MulAdd(per_edge, hn::Load(d, pack.edge + lane), least_error);
-        const auto maybe = hn::Or(hn::Ge(least, hn::Neg(error)), hn::Le(most, error));
+        // Most of what the line meets lies behind the ray's origin or beyond its end: first by the corners' depths ...
+        const auto low = hn::Min(hn::Min(z0, z1), z2), high = hn::Max(hn::Max(z0, z1), z2);
+        const auto wide = hn::MulAdd(depth_per_edge, hn::Load(d, pack.edge + lane), depth_error);
+        const auto between = hn::And(hn::Le(low, hn::Add(last, wide)), hn::Ge(high, hn::Sub(first, wide)));
+        const auto maybe = hn::And(between, hn::Or(hn::Ge(least, hn::Neg(error)), hn::Le(most, error)));
         if (hn::AllFalse(d, maybe)) continue;
-        // The depth of the hit, times the sum of the sides, against both ends: most of what the line meets lies behind
-        // the ray's origin or beyond its end.
+        // ... then by the depth of the hit, times the sum of the sides.
         const auto sum = hn::Add(hn::Add(u, v), w), size = hn::Abs(sum);
         const auto turn = hn::Xor(hn::And(sum, hn::SignBit(d)), hn::And(forward, hn::SignBit(d)));
         const auto depth = hn::Xor(hn::MulAdd(u, z0, hn::MulAdd(v, z1, hn::Mul(w, z2))), turn);

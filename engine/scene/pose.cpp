@@ -1,6 +1,7 @@
 #include "engine/scene/pose.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <span>
 
@@ -38,22 +39,43 @@ const DeformingTriangle& deforming_triangle(const Scene& scene, const Group& gro
     return scene.deforming[group.first_deforming + index];
 }
 
+template <typename Vec>
+bool are_finite(const Vec* points, std::size_t count)
+{
+    Vec sum(0);  // of zeros, or of what is not a number
+    for (std::size_t i = 0; i < count; ++i) sum += points[i] - points[i];
+    return sum == Vec(0);
+}
+
 template <typename Real>
-void carry(const Pose& pose, const Group& group, glm::vec<3, Real, glm::defaultp>* out)
+bool carry(const Pose& pose, const Group& group, glm::vec<3, Real, glm::defaultp>* out, const Executor* executor)
 {
     using Vec = glm::vec<3, Real, glm::defaultp>;
+    constexpr std::size_t grain = 16384;
     const Scene& scene = *pose.scene;
     const Transform& root_from_node = pose.root_from_node[group.node];
+    std::atomic<bool> all_finite{true};
+    const auto check = [&](const Vec* points, std::size_t count) {
+        if (!are_finite(points, count)) all_finite.store(false, std::memory_order_relaxed);
+    };
     if (!group.deforming) {
-        for (std::uint32_t i = 0; i < group.vertices; ++i)
-            out[i] = Vec(root_from_node.point(scene.positions[group.first_vertex + i]));
-        return;
+        for_pieces(executor, group.vertices, grain, [&](std::size_t begin, std::size_t end) {
+            const glm::dvec3* const positions = scene.positions.data() + group.first_vertex;
+            for (std::size_t i = begin; i < end; ++i) out[i] = Vec(root_from_node.point(positions[i]));
+            check(out + begin, end - begin);
+        });
+        return all_finite;
     }
-    for (std::uint32_t i = 0; i < group.triangles; ++i) {
-        const Between keys = keys_at(scene, deforming_triangle(scene, group, i), pose.time);
-        const glm::uvec3& vertex = scene.triangles[group.first_triangle + i].vertex;
-        for (int k = 0; k < 3; ++k) out[vertex[k] - group.first_vertex] = Vec(root_from_node.point(keys.position(k)));
-    }
+    for_pieces(executor, group.triangles, grain, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            const Between keys = keys_at(scene, deforming_triangle(scene, group, static_cast<std::uint32_t>(i)), pose.time);
+            const glm::uvec3 place = scene.triangles[group.first_triangle + i].vertex - group.first_vertex;
+            Vec corners[3];
+            for (int k = 0; k < 3; ++k) out[place[k]] = corners[k] = Vec(root_from_node.point(keys.position(k)));
+            check(corners, 3);
+        }
+    });
+    return all_finite;
 }
 
 /// Grows the box by a circle: half its extent along an axis is the length of that axis' row.
@@ -150,14 +172,14 @@ Pose pose(const Scene& scene, double time)
     return result;
 }
 
-void carry_vertices(const Pose& pose, const Group& group, glm::vec3* out)
+bool carry_vertices(const Pose& pose, const Group& group, glm::vec3* out, const Executor* executor)
 {
-    carry(pose, group, out);
+    return carry(pose, group, out, executor);
 }
 
-void carry_vertices(const Pose& pose, const Group& group, glm::dvec3* out)
+bool carry_vertices(const Pose& pose, const Group& group, glm::dvec3* out, const Executor* executor)
 {
-    carry(pose, group, out);
+    return carry(pose, group, out, executor);
 }
 
 DAabb bounds(const Pose& pose)

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "engine/core/executor.h"
 #include "engine/scene/scene.h"
 
 namespace firstray {
@@ -35,9 +36,11 @@ Pose pose(const Scene& scene, double time);
 /// Vertices of a group carried into the root system: out[i] belongs to Scene::positions[group.first_vertex + i].
 /// Deforming groups are evaluated at pose.time. The one function that makes root vertices, so that every strategy gets
 /// the same bits: computed in double, rounded once.
-/// out  room for group.vertices points
-void carry_vertices(const Pose& pose, const Group& group, glm::vec3* out);
-void carry_vertices(const Pose& pose, const Group& group, glm::dvec3* out);
+/// out       room for group.vertices points
+/// executor  null: on this thread
+/// returns   whether all of them are finite
+bool carry_vertices(const Pose& pose, const Group& group, glm::vec3* out, const Executor* executor = nullptr);
+bool carry_vertices(const Pose& pose, const Group& group, glm::dvec3* out, const Executor* executor = nullptr);
 
 /// Bounds of everything visible, root system; empty for a scene without visible primitives.
 DAabb bounds(const Pose& pose);

@@ -17,11 +17,10 @@ public:
 
     void update(const Pose& pose) override
     {
-        structure_ = {};  // given back first: the old and the new one are never held together
         geometry_.update(pose, options_.executor);
         std::uint64_t built_bytes = 0;
-        structure_ = build_grid(make_entries(geometry_, geometry_.visible(), options_.executor), grid_options(options_),
-                                options_.executor, built_bytes);
+        make_entries(geometry_, geometry_.visible(), options_.executor, entries_);
+        build_grid(entries_, grid_options(options_), options_.executor, scratch_, structure_, built_bytes);
         peak_bytes_ = std::max(peak_bytes_, built_bytes + geometry_.bytes());
     }
     void closest(RayTile<Real>& rays) const override { search_closest(target(), rays); }
@@ -40,6 +39,8 @@ private:
 
     StrategyOptions options_;
     RootGeometry<Real> geometry_;
+    GridEntries entries_;   // these three keep their memory from frame to frame
+    BuildScratch scratch_;
     GridStructure structure_;
     std::uint64_t peak_bytes_ = 0;
 };
@@ -54,7 +55,7 @@ StructureReport GridStrategy<Real>::report() const
     report.filled_voxels = structure_.lists.size() + report.subgrids;
     report.references = structure_.references;
     report.primitives = primitives();
-    report.bytes = structure_.bytes() + geometry_.bytes();
+    report.bytes = structure_.bytes() + entries_.bytes() + geometry_.bytes();
     report.peak_bytes = peak_bytes_;
     report.regridded = report.primitives;
     report.depth = structure_.depth;

@@ -19,11 +19,6 @@ bool is_finite(const glm::dvec3& p)
     return std::isfinite(p.x + p.y + p.z);
 }
 
-float half_area(const glm::vec3& d)
-{
-    return d.x * d.y + d.y * d.z + d.z * d.x;
-}
-
 }  // namespace
 
 std::vector<DAabb> group_bounds(const Scene& scene)
@@ -79,15 +74,12 @@ Aabb room_of_movers(const Scene& scene, std::span<const DAabb> bounds)
 template <typename Real>
 GridEntries scenery_entries(const RootGeometry<Real>& geometry, const Aabb& movers, const Executor* executor)
 {
-    geometry.touch(0);
+    geometry.touch(0, executor);
     PrimitiveList primitives;
     geometry.list(0, primitives);
     GridEntries entries = make_entries(geometry, primitives, executor);
-    Aabb own;
-    for (const Aabb& box : entries.boxes) own.grow(box);
-    Aabb room = movers;
-    room.grow(own);
-    if (half_area(room.size()) <= most_room * half_area(own.size())) entries.room = room;
+    entries.room = movers;
+    entries.most_room = most_room;
     return entries;
 }
 

@@ -1,5 +1,8 @@
 #include "engine/strategy/root_geometry.h"
 
+#include <cmath>
+#include <numeric>
+
 namespace firstray {
 namespace {
 
@@ -10,6 +13,9 @@ bool has_finite_corners(const auto& triangle)
             if (!std::isfinite(corner[axis])) return false;
     return true;
 }
+
+/// What is in a group, hidden or not, or listed one by one, because some of it cannot be hit.
+enum Listed : std::uint8_t { not_at_all, wholly, one_by_one };
 
 }  // namespace
 
@@ -23,8 +29,10 @@ RootGeometry<Real>::RootGeometry(const Scene& scene)
       stood_(scene.groups.size()),
       is_there_(scene.groups.size()),
       moved_(scene.groups.size()),
-      was_visible_(scene.groups.size())
+      is_finite_(scene.groups.size()),
+      was_listed_(scene.groups.size())
 {
+    vertices_.reserve(scene.positions.size() + 1);
     vertices_.resize(scene.positions.size());
     for (const Part& part : scene.parts) {
         const Group& group = scene.groups[part.group];
@@ -38,10 +46,11 @@ RootGeometry<Real>::RootGeometry(const Scene& scene)
 }
 
 template <typename Real>
-void RootGeometry<Real>::carry(const Pose& pose, std::uint32_t group) const
+void RootGeometry<Real>::carry(const Pose& pose, std::uint32_t group, const Executor* executor) const
 {
     const Group& g = scene_.groups[group];
-    carry_vertices(pose, g, vertices_.data() + g.first_vertex);
+    is_finite_[group].store(carry_vertices(pose, g, vertices_.data() + g.first_vertex, executor),
+                            std::memory_order_relaxed);
     for (std::uint32_t i = 0; i < g.quadrics; ++i) {
         const PrimitiveId id = g.first + g.triangles + i;
         placed_[g.first_quadric + i] =
@@ -57,7 +66,7 @@ void RootGeometry<Real>::update(const Pose& pose, const Executor* executor)
     std::vector<std::uint32_t> to_carry;
     for (std::uint32_t group = 0; group < scene_.groups.size(); ++group)
         if (pose.is_visible(scene_.groups[group]) && carried_[group].load() != Carried::yes) to_carry.push_back(group);
-    const auto carry_one = [&](std::size_t i) { carry(pose, to_carry[i]); };
+    const auto carry_one = [&](std::size_t i) { carry(pose, to_carry[i], executor); };
     if (executor)
         executor->for_each(to_carry.size(), carry_one);
     else
@@ -87,12 +96,12 @@ void RootGeometry<Real>::update_on_touch(const Pose& pose)
 }
 
 template <typename Real>
-bool RootGeometry<Real>::carry_if_first(std::uint32_t group) const
+bool RootGeometry<Real>::carry_if_first(std::uint32_t group, const Executor* executor) const
 {
     Carried expected = Carried::no;
     if (!carried_[group].compare_exchange_strong(expected, Carried::begun, std::memory_order_acquire))
         return expected == Carried::yes;
-    carry(*pose_, group);
+    carry(*pose_, group, executor);
     return true;
 }
 
@@ -122,26 +131,34 @@ RootQuadric RootGeometry<Real>::quadric_alone(std::uint32_t group, PrimitiveId i
 template <typename Real>
 void RootGeometry<Real>::list_visible(const Pose& pose)
 {
-    bool same_groups = visible_.size() > 0;
+    bool same = visible_.size() > 0;
     for (std::size_t g = 0; g < scene_.groups.size(); ++g) {
-        const std::uint8_t visible = pose.is_visible(scene_.groups[g]);
-        same_groups = same_groups && visible == was_visible_[g];
-        was_visible_[g] = visible;
+        const std::uint8_t listed = !pose.is_visible(scene_.groups[g]) ? not_at_all
+                                    : is_finite_[g].load(std::memory_order_relaxed) ? wholly
+                                                                                    : one_by_one;
+        same = same && listed == was_listed_[g] && listed != one_by_one;
+        was_listed_[g] = listed;
     }
-    if (same_groups) return;
+    if (same) return;
     visible_ = {};
     for (std::uint32_t g = 0; g < scene_.groups.size(); ++g)
-        if (was_visible_[g]) list(g, visible_);
+        if (was_listed_[g] != not_at_all) list(g, visible_);
 }
 
 template <typename Real>
 void RootGeometry<Real>::list(std::uint32_t index, PrimitiveList& list) const
 {
     const Group& group = scene_.groups[index];
-    for (PrimitiveId id = group.first; id < group.first + group.triangles; ++id)
-        if (has_finite_corners(triangle(id))) list.triangles.push_back(id);
-    for (PrimitiveId id = group.first + group.triangles; id < group.first + group.primitives(); ++id)
-        list.quadrics.push_back(id);
+    const PrimitiveId quadrics = group.first + group.triangles;
+    if (is_finite_[index].load(std::memory_order_relaxed)) {
+        const std::size_t before = list.triangles.size();
+        list.triangles.resize(before + group.triangles);
+        std::iota(list.triangles.begin() + static_cast<std::ptrdiff_t>(before), list.triangles.end(), group.first);
+    } else {
+        for (PrimitiveId id = group.first; id < quadrics; ++id)
+            if (has_finite_corners(triangle(id))) list.triangles.push_back(id);
+    }
+    for (PrimitiveId id = quadrics; id < group.first + group.primitives(); ++id) list.quadrics.push_back(id);
 }
 
 template <typename Real>

@@ -38,9 +38,10 @@ public:
 
     /// Has a visible group carried, by the first thread that asks; any number of threads. False while another thread is
     /// at it: nobody waits, carried() makes single primitives.
-    bool touch(std::uint32_t group) const
+    /// executor  only for who runs alone
+    bool touch(std::uint32_t group, const Executor* executor = nullptr) const
     {
-        return carried_[group].load(std::memory_order_acquire) == Carried::yes || carry_if_first(group);
+        return carried_[group].load(std::memory_order_acquire) == Carried::yes || carry_if_first(group, executor);
     }
 
     /// What is visible; valid until the next update. Only after update().
@@ -57,6 +58,10 @@ public:
         return {{v0, v1, v2}, longest_edge<Real>(v0, v1, v2)};
     }
     const RootQuadric& quadric(PrimitiveId id) const { return placed_[corners_[id].x]; }
+    /// The same triangles' corners for who reads many: indices into vertices(), by PrimitiveId. There is memory for one
+    /// vertex more, so that four numbers may be read of each.
+    const glm::uvec3* corners() const { return corners_.data(); }
+    const Vec* vertices() const { return vertices_.data(); }
 
     /// The same, the same bits, where the group may not have been touched yet. Only after update_on_touch().
     RootTriangle<Real> triangle_of(std::uint32_t group, PrimitiveId id) const
@@ -81,8 +86,8 @@ public:
 private:
     enum class Carried : std::uint8_t { no, begun, yes };
 
-    bool carry_if_first(std::uint32_t group) const;
-    void carry(const Pose& pose, std::uint32_t group) const;
+    bool carry_if_first(std::uint32_t group, const Executor* executor) const;
+    void carry(const Pose& pose, std::uint32_t group, const Executor* executor) const;
     RootTriangle<Real> carried_alone(PrimitiveId id) const;
     void list_visible(const Pose& pose);
 
@@ -96,7 +101,8 @@ private:
     std::vector<Transform> stood_;                       ///< by group: root_from_node at the last update
     std::vector<std::uint8_t> is_there_, moved_;         ///< by group: visible at the last update; has_moved
     double time_ = 0.0;                                  ///< of the last update
-    std::vector<std::uint8_t> was_visible_;              ///< by group, at the last update
+    mutable std::vector<std::atomic<bool>> is_finite_;   ///< by group: every vertex is, as last carried
+    std::vector<std::uint8_t> was_listed_;               ///< by group, at the last update: visible, and finite
     std::uint64_t version_ = 0;
     PrimitiveList visible_;
 };

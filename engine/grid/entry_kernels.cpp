@@ -1,0 +1,392 @@
+#include "engine/grid/entry_kernels.h"
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "engine/grid/entry_kernels.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "engine/primitive/pack_kernels-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace firstray {
+namespace HWY_NAMESPACE {
+
+using Lanes = hn::Vec<PackLanes>;
+using IntLanes = hn::RebindToSigned<PackLanes>;
+constexpr std::size_t width = hn::MaxLanes(PackLanes());
+
+/// Up to sixteen entries; what is missing repeats the last.
+struct Members {
+    alignas(64) std::uint32_t entry[pack_size];
+
+    HWY_INLINE Members(const std::uint32_t* from, std::size_t count)
+    {
+        std::copy_n(from, count, entry);
+        std::fill(entry + count, entry + pack_size, from[count - 1]);
+    }
+};
+
+struct CornerLanes {
+    Lanes v[3][3];  ///< corner, axis
+};
+
+/// Every fourth of some points, each with the number that follows it, one behind the other.
+template <class D>
+HWY_INLINE hn::Vec<D> load_points(D d, const float* const* points)
+{
+    if constexpr (hn::MaxLanes(d) == 4) {
+        return hn::LoadU(d, points[0]);
+    } else {
+        const hn::Half<D> half;
+        return hn::Combine(d, load_points(half, points + hn::MaxLanes(half)), load_points(half, points));
+    }
+}
+
+/// Turns `width` points into lanes; quicker than gathering their coordinates.
+HWY_INLINE void turn_points(const float* const* points, Lanes (&axes)[3])
+{
+    const PackLanes d;
+    const hn::Repartition<double, PackLanes> d2;
+    const auto p0 = load_points(d, points), p1 = load_points(d, points + 1), p2 = load_points(d, points + 2),
+               p3 = load_points(d, points + 3);
+    const auto pair = [&](auto v) HWY_ATTR { return hn::BitCast(d2, v); };
+    const auto xy01 = pair(hn::InterleaveLower(d, p0, p1)), xy23 = pair(hn::InterleaveLower(d, p2, p3)),
+               z01 = pair(hn::InterleaveUpper(d, p0, p1)), z23 = pair(hn::InterleaveUpper(d, p2, p3));
+    axes[0] = hn::BitCast(d, hn::InterleaveLower(d2, xy01, xy23));
+    axes[1] = hn::BitCast(d, hn::InterleaveUpper(d2, xy01, xy23));
+    axes[2] = hn::BitCast(d, hn::InterleaveLower(d2, z01, z23));
+}
+
+/// entry  `width` of them
+HWY_INLINE void load_corners(const GridEntries& entries, const std::uint32_t* entry, CornerLanes& lanes)
+{
+    const float* points[3][width];
+    for (std::size_t i = 0; i < width; ++i) {
+        const glm::vec3* const from = entries.corners ? entries.vertices : entries.own_vertices.data();
+        const glm::uvec3 place = entries.corners ? entries.corners[entries.ids[entry[i]] & ~transmitting_bit]
+                                                 : 3u * entry[i] + glm::uvec3(0, 1, 2);
+        for (int k = 0; k < 3; ++k) points[k][i] = &from[place[k]].x;
+    }
+    for (int k = 0; k < 3; ++k) turn_points(points[k], lanes.v[k]);
+}
+
+struct BoxLanes {
+    Lanes lo[3], hi[3];
+};
+
+HWY_INLINE void find_box(const CornerLanes& corners, BoxLanes& box)
+{
+    for (int axis = 0; axis < 3; ++axis) {
+        box.lo[axis] = hn::Min(hn::Min(corners.v[0][axis], corners.v[1][axis]), corners.v[2][axis]);
+        box.hi[axis] = hn::Max(hn::Max(corners.v[0][axis], corners.v[1][axis]), corners.v[2][axis]);
+    }
+}
+
+HWY_INLINE void load_box(const GridEntries& entries, const std::uint32_t* entry, BoxLanes& box)
+{
+    CornerLanes corners;
+    load_corners(entries, entry, corners);
+    find_box(corners, box);
+}
+
+/// What reaches the voxel only through the pad is drawn to its nearest side.
+HWY_INLINE void clip(BoxLanes& box, const Aabb& voxel)
+{
+    const PackLanes d;
+    for (int axis = 0; axis < 3; ++axis) {
+        const auto lo = hn::Set(d, voxel.lo[axis]), hi = hn::Set(d, voxel.hi[axis]);
+        box.lo[axis] = hn::Min(hn::Max(box.lo[axis], lo), hi);
+        box.hi[axis] = hn::Min(hn::Max(box.hi[axis], lo), hi);
+    }
+}
+
+HWY_INLINE Aabb reduce(const BoxLanes& box)
+{
+    const PackLanes d;
+    Aabb result;
+    for (int axis = 0; axis < 3; ++axis) {
+        result.lo[axis] = hn::GetLane(hn::MinOfLanes(d, box.lo[axis]));
+        result.hi[axis] = hn::GetLane(hn::MaxOfLanes(d, box.hi[axis]));
+    }
+    return result;
+}
+
+HWY_INLINE void offer_larger(const BoxLanes& box, const std::uint32_t* entry, std::size_t count,
+                             LargestTriangles& largest)
+{
+    const PackLanes d;
+    const auto x = hn::Sub(box.hi[0], box.lo[0]), y = hn::Sub(box.hi[1], box.lo[1]), z = hn::Sub(box.hi[2], box.lo[2]);
+    const auto area = hn::Add(hn::Add(hn::Mul(x, y), hn::Mul(y, z)), hn::Mul(z, x));
+    std::uint32_t larger =
+        bits_of(d, hn::And(hn::FirstN(d, count), hn::Gt(area, hn::Set(d, largest.least()))));
+    if (HWY_LIKELY(larger == 0)) return;
+    alignas(64) float areas[width];
+    hn::Store(area, d, areas);
+    for (; larger != 0; larger &= larger - 1) {
+        const int lane = __builtin_ctz(larger);
+        if (areas[lane] > largest.least()) largest.offer({areas[lane], entry[lane]});
+    }
+}
+
+Aabb bounds_of_triangles(const GridEntries& entries, std::span<const std::uint32_t> triangles,
+                         LargestTriangles* largest)
+{
+    const PackLanes d;
+    BoxLanes sum;
+    for (int axis = 0; axis < 3; ++axis) {
+        sum.lo[axis] = hn::Set(d, std::numeric_limits<float>::infinity());
+        sum.hi[axis] = hn::Neg(sum.lo[axis]);
+    }
+    for (std::size_t first = 0; first < triangles.size(); first += width) {
+        const std::size_t count = std::min(width, triangles.size() - first);
+        const Members members(triangles.data() + first, count);
+        BoxLanes box;
+        load_box(entries, members.entry, box);
+        for (int axis = 0; axis < 3; ++axis) {
+            sum.lo[axis] = hn::Min(sum.lo[axis], box.lo[axis]);
+            sum.hi[axis] = hn::Max(sum.hi[axis], box.hi[axis]);
+        }
+        if (largest) offer_larger(box, members.entry, count, *largest);
+    }
+    return reduce(sum);
+}
+
+void ranges_of_triangles(const GridEntries& entries, std::span<const std::uint32_t> triangles, const CellFinder& finder,
+                         RangeBlock& ranges)
+{
+    const PackLanes d;
+    const IntLanes di;
+    const Members members(triangles.data(), triangles.size());
+    const auto pad = hn::Set(d, finder.pad), zero = hn::Zero(d);
+    ranges.wide = 0;
+    for (std::size_t lane = 0; lane < triangles.size(); lane += width) {
+        BoxLanes box;
+        load_box(entries, members.entry + lane, box);
+        auto lowest = hn::Zero(di), beyond = hn::Zero(di);
+        for (int axis = 2; axis >= 0; --axis) {
+            const auto lo = hn::Set(d, finder.lo[axis]), scale = hn::Set(d, finder.scale[axis]),
+                       last = hn::Set(d, finder.last[axis]);
+            const auto cell = [&](auto at) HWY_ATTR {
+                return hn::ConvertTo(di, hn::Min(hn::Max(hn::Mul(hn::Sub(at, lo), scale), zero), last));
+            };
+            const auto from = cell(hn::Sub(box.lo[axis], pad)), to = cell(hn::Add(box.hi[axis], pad));
+            hn::Store(from, di, ranges.lo[axis] + lane);
+            hn::Store(to, di, ranges.hi[axis] + lane);
+            lowest = hn::Add(hn::Mul(lowest, hn::Set(di, finder.dims[axis])), from);
+            beyond = hn::Or(beyond, hn::Sub(to, from));
+        }
+        hn::Store(lowest, di, reinterpret_cast<std::int32_t*>(ranges.lowest) + lane);
+        ranges.wide |= bits_of(di, hn::Gt(beyond, hn::Zero(di))) << lane;
+    }
+}
+
+/// Places on a Morton curve through a voxel, `bits` an axis.
+template <int bits>
+struct MortonCurve {
+    const Aabb& voxel;
+    glm::vec3 scale;
+
+    explicit MortonCurve(const Aabb& box)
+        : voxel(box), scale(static_cast<float>(1 << bits) / glm::max(box.size(), glm::vec3(1e-30f)))
+    {
+    }
+    /// Of the middles of boxes.
+    HWY_INLINE hn::Vec<IntLanes> places(const BoxLanes& box) const
+    {
+        const PackLanes d;
+        const IntLanes di;
+        auto place = hn::Zero(di);
+        for (int axis = 0; axis < 3; ++axis) {
+            const auto middle = hn::Mul(hn::Add(box.lo[axis], box.hi[axis]), hn::Set(d, 0.5f));
+            const auto at = hn::Mul(hn::Sub(middle, hn::Set(d, voxel.lo[axis])), hn::Set(d, scale[axis]));
+            const auto x = hn::ConvertTo(
+                di, hn::Min(hn::Max(at, hn::Zero(d)), hn::Set(d, static_cast<float>((1 << bits) - 1))));
+            place = hn::Or(place, hn::ShiftLeftSame(spread(x), axis));
+        }
+        return place;
+    }
+
+private:
+    /// Spreads three bits so that two zeros stand between them.
+    static HWY_INLINE hn::Vec<IntLanes> spread(hn::Vec<IntLanes> x)
+    {
+        const IntLanes di;
+        const auto bit = [&](int mask) HWY_ATTR { return hn::And(x, hn::Set(di, mask)); };
+        return hn::Or(bit(1), hn::Or(hn::ShiftLeft<2>(bit(2)), hn::ShiftLeft<4>(bit(4))));
+    }
+};
+
+/// Sorts by counting, which keeps the order of equal ones: a few triangles for each place on the curve are near enough
+/// to each other, and comparing takes longer.
+template <int bits>
+HWY_NOINLINE void sort_along_curve(const GridEntries& entries, std::span<const std::uint32_t> triangles,
+                                   const Aabb& voxel, std::vector<std::uint32_t>& sorted)
+{
+    constexpr std::size_t places = std::size_t{1} << (3 * bits);
+    const IntLanes di;
+    const MortonCurve<bits> curve(voxel);
+    thread_local RawVector<std::int32_t> place_of;
+    place_of.resize(triangles.size() + pack_size);
+    std::uint32_t first[places] = {};
+    for (std::size_t begin = 0; begin < triangles.size(); begin += width) {
+        const std::size_t count = std::min(width, triangles.size() - begin);
+        BoxLanes box;
+        load_box(entries, Members(triangles.data() + begin, count).entry, box);
+        clip(box, voxel);
+        hn::StoreU(curve.places(box), di, place_of.data() + begin);
+        for (std::size_t i = begin; i < begin + count; ++i) ++first[place_of[i]];
+    }
+    std::uint32_t sum = 0;
+    for (std::uint32_t& place : first) sum += std::exchange(place, sum);
+    sorted.resize(triangles.size());
+    for (std::size_t i = 0; i < triangles.size(); ++i) sorted[first[place_of[i]]++] = triangles[i];
+}
+
+/// The triangles, neighbours in space near each other; as they are if they fill at most one pack.
+std::span<const std::uint32_t> in_clusters(const GridEntries& entries, std::span<const std::uint32_t> triangles,
+                                           const Aabb& voxel)
+{
+    constexpr std::size_t few = 128;  // two triangles for each of 64 places
+    if (triangles.size() <= pack_size) return triangles;
+    thread_local std::vector<std::uint32_t> sorted;
+    if (triangles.size() <= few)
+        sort_along_curve<2>(entries, triangles, voxel, sorted);
+    else
+        sort_along_curve<3>(entries, triangles, voxel, sorted);
+    return sorted;
+}
+
+HWY_INLINE Lanes longest_edges(const CornerLanes& c)
+{
+    auto longest = hn::Zero(PackLanes());
+    for (int axis = 0; axis < 3; ++axis)
+        for (int k = 0; k < 3; ++k)
+            longest = hn::Max(longest, hn::Abs(hn::Sub(c.v[(k + 1) % 3][axis], c.v[k][axis])));
+    return longest;
+}
+
+/// Copies up to sixteen triangles; sum becomes their boxes, those of a pack's parts put together.
+HWY_INLINE void fill_pack(const GridEntries& entries, std::span<const std::uint32_t> triangles, TrianglePack& pack,
+                          BoxLanes& sum)
+{
+    const PackLanes d;
+    const Members members(triangles.data(), triangles.size());
+    for (std::size_t lane = 0; lane < pack_size; ++lane) pack.id[lane] = entries.ids[members.entry[lane]];
+    std::fill(pack.id + triangles.size(), pack.id + pack_size, no_primitive);
+    for (std::size_t lane = 0; lane < pack_size; lane += width) {
+        const auto is_used = hn::FirstN(d, triangles.size() > lane ? triangles.size() - lane : 0);
+        const auto nowhere = hn::Set(d, std::numeric_limits<float>::quiet_NaN());
+        CornerLanes c;
+        load_corners(entries, members.entry + lane, c);
+        for (int k = 0; k < 3; ++k)
+            for (int axis = 0; axis < 3; ++axis)
+                hn::Store(hn::IfThenElse(is_used, c.v[k][axis], nowhere), d, pack.v[k][axis] + lane);
+        hn::Store(hn::IfThenElse(is_used, longest_edges(c), nowhere), d, pack.edge + lane);
+        BoxLanes box;
+        find_box(c, box);  // lanes that are not used repeat one that is
+        for (int axis = 0; axis < 3; ++axis) {
+            sum.lo[axis] = lane == 0 ? box.lo[axis] : hn::Min(sum.lo[axis], box.lo[axis]);
+            sum.hi[axis] = lane == 0 ? box.hi[axis] : hn::Max(sum.hi[axis], box.hi[axis]);
+        }
+    }
+}
+
+void set_box(PackBoxes& boxes, std::size_t lane, const Aabb& box, float pad)
+{
+    for (int axis = 0; axis < 3; ++axis) {
+        boxes.lo[axis][lane] = box.lo[axis] - pad;
+        boxes.hi[axis][lane] = box.hi[axis] + pad;
+    }
+}
+
+void fill_packs_of(const VoxelList& list, const GridEntries& entries, std::span<const std::uint32_t> triangles,
+                   const Aabb& voxel, GridStructure& structure)
+{
+    const std::span<const std::uint32_t> order = in_clusters(entries, triangles, voxel);
+    const bool boxed = list.box_blocks() > 0;
+    for (std::size_t p = 0; p < list.packs; ++p) {
+        const std::size_t begin = p * pack_size, count = std::min<std::size_t>(pack_size, order.size() - begin);
+        BoxLanes box;
+        fill_pack(entries, order.subspan(begin, count), structure.packs[list.first_pack + p], box);
+        if (!boxed) continue;
+        clip(box, voxel);  // the union of clipped boxes is the clipped union, as all of them meet the voxel
+        set_box(structure.boxes[list.first_boxes + p / pack_size], p % pack_size, reduce(box), entries.pad);
+    }
+    for (std::size_t p = list.packs; p < std::size_t{list.box_blocks()} * pack_size; ++p)
+        set_box(structure.boxes[list.first_boxes + p / pack_size], p % pack_size, {}, 0.0f);
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace firstray
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace firstray {
+
+HWY_EXPORT(bounds_of_triangles);
+HWY_EXPORT(ranges_of_triangles);
+HWY_EXPORT(fill_packs_of);
+
+void LargestTriangles::offer(const Triangle& triangle)
+{
+    const auto end = found_.begin() + count_, place = std::upper_bound(found_.begin(), end, triangle);
+    if (place == found_.end()) return;
+    if (count_ < pack_size) ++count_;
+    std::copy_backward(place, found_.begin() + count_ - 1, found_.begin() + count_);
+    *place = triangle;
+}
+
+Aabb bounds_of(const GridEntries& entries, std::span<const std::uint32_t> chosen, LargestTriangles* largest)
+{
+    const auto end = std::partition_point(chosen.begin(), chosen.end(),
+                                          [&](std::uint32_t entry) { return entries.is_triangle(entry); });
+    Aabb box;
+    if (end != chosen.begin()) box = HWY_DYNAMIC_DISPATCH(bounds_of_triangles)(entries, {chosen.begin(), end}, largest);
+    for (auto quadric = end; quadric != chosen.end(); ++quadric) box.grow(entries.box(*quadric));
+    return box;
+}
+
+Aabb bounds_of(const GridEntries& entries, const Executor* executor, LargestTriangles* largest)
+{
+    constexpr std::size_t grain = 4096, most_pieces = 256;
+    const std::size_t pieces = std::clamp<std::size_t>(entries.count() / grain, 1, most_pieces);
+    std::vector<Aabb> bounds(pieces);
+    std::vector<LargestTriangles> found(largest ? pieces : 0);
+    for_pieces(executor, pieces, 1, [&](std::size_t begin, std::size_t end) {
+        std::vector<std::uint32_t> numbers(grain);
+        for (std::size_t i = begin; i < end; ++i) {
+            const auto first = static_cast<std::uint32_t>(entries.count() * i / pieces),
+                       last = static_cast<std::uint32_t>(entries.count() * (i + 1) / pieces);
+            for (std::uint32_t from = first; from < last; from += grain) {
+                const std::size_t count = std::min<std::size_t>(grain, last - from);
+                std::iota(numbers.begin(), numbers.begin() + static_cast<std::ptrdiff_t>(count), from);
+                bounds[i].grow(bounds_of(entries, {numbers.data(), count}, largest ? &found[i] : nullptr));
+            }
+        }
+    });
+    Aabb all;
+    for (const Aabb& box : bounds) all.grow(box);
+    for (const LargestTriangles& some : found)
+        for (const LargestTriangles::Triangle& triangle : some.found()) largest->offer(triangle);
+    return all;
+}
+
+void find_ranges(const GridEntries& entries, std::span<const std::uint32_t> triangles, const CellFinder& finder,
+                 RangeBlock& ranges)
+{
+    HWY_DYNAMIC_DISPATCH(ranges_of_triangles)(entries, triangles, finder, ranges);
+}
+
+void fill_packs(const VoxelList& list, const GridEntries& entries, std::span<const std::uint32_t> triangles,
+                const Aabb& voxel, GridStructure& structure)
+{
+    HWY_DYNAMIC_DISPATCH(fill_packs_of)(list, entries, triangles, voxel, structure);
+}
+
+}  // namespace firstray
+#endif  // HWY_ONCE
