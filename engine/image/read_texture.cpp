@@ -8,6 +8,7 @@
 #include <string_view>
 #include <system_error>
 
+#include "engine/aff/lexer.h"
 #include "engine/core/errors.h"
 #include "engine/image/image.h"
 
@@ -33,7 +34,7 @@ public:
 private:
     [[noreturn]] void cannot_read(const std::string& reason) const
     {
-        throw FileError(place_ + "cannot read picture " + file_.string() + ": " + reason);
+        throw FileError(place_ + "cannot read picture " + printable(file_.string()) + ": " + reason);
     }
     /// What a decoder says, on one line; some say nothing.
     [[noreturn]] void cannot_decode(std::string reason) const
@@ -44,7 +45,7 @@ private:
     }
     [[noreturn]] void over_limit(const std::string& has, std::uint64_t limit, const char* name) const
     {
-        throw LimitError(place_ + "picture " + file_.string() + " " + has + ", more than " + std::to_string(limit),
+        throw LimitError(place_ + "picture " + printable(file_.string()) + " " + has + ", more than " + std::to_string(limit),
                          name);
     }
     void check_regular() const;
