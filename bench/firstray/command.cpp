@@ -33,7 +33,8 @@ answer is t,group,primitive,u,v of ray k, or inf,-1,-1,0,0 where it meets nothin
 Examples:
   firstray trace Robot.aff --frame 208 --rays rays.csv --output hits.csv
   echo 0,5,20,0,0,-1,0,inf | firstray trace Robot.aff --frame 0 --rays - --precision double)";
-constexpr const char* main_footer = R"(firstray COMMAND --help tells the options of a command.
+constexpr const char* main_footer = R"(firstray COMMAND --help tells the options of a command. All take --memory-limit SIZE, e.g. 2G, and where they read a
+scene --limit NAME=N,... to allow more, or less, than the limit that a message names.
 Exit codes: 0 done, 1 failed while rendering, 2 usage, 3 bad scene, 4 file trouble, 5 over a limit.)";
 
 /// Of an option given twice the last one counts: scripts put the options of their caller behind their own.
@@ -52,7 +53,8 @@ void add_int(CLI::App& app, const char* name, int& target, int low, int high, co
 CLI::Option* add_scene(CLI::App& app, SceneChoice& scene)
 {
     app.add_flag("--allow-outside", scene.allow_outside, "let includes and textures lie outside the scene's folder");
-    add(app, "--limit", scene.limits, "NAME=N", "allow more, or less, than the limit that a message names; NAME=N,...");
+    add(app, "--limit", scene.limits, "NAME=N", "allow more, or less, than the limit that a message names")
+        ->group("");  // one screen is enough: firstray --help tells of it
     return add(app, "SCENE", scene.file, " ", "scene file (.aff)")->required();
 }
 
@@ -239,7 +241,7 @@ void dispatch(std::span<const std::string> arguments, Streams streams, Memory& l
 
     std::string memory;
     for (CLI::App* command : app.get_subcommands({}))
-        add(*command, "--memory-limit", memory, "SIZE", "most memory to allocate, e.g. 500M or 2G; default none");
+        add(*command, "--memory-limit", memory, "SIZE", "most memory to allocate")->group("");
 
     try {
         app.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));  // CLI11 wants them reversed

@@ -13,7 +13,7 @@ static_assert(std::atomic<bool>::is_always_lock_free);  // as a signal handler n
 InterruptGuard::InterruptGuard()
 {
     interrupted = false;
-    struct sigaction action{};
+    struct sigaction action {};
     action.sa_handler = [](int) { interrupted.store(true, std::memory_order_relaxed); };
     action.sa_flags = static_cast<int>(SA_RESETHAND);
     sigaction(SIGINT, &action, &former_int_);

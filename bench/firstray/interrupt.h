@@ -16,7 +16,8 @@ public:
     static bool is_interrupted();
 
 private:
-    struct sigaction former_int_{}, former_term_{};
+    struct sigaction former_int_ {
+    }, former_term_{};
 };
 
 }  // namespace firstray::command

@@ -18,9 +18,9 @@ Attributes run_attributes(const Scene& scene, std::span<const Texture> textures,
 
 /// Which frames of a run are still to be rendered.
 struct Resumption {
-    std::vector<int> missing;      ///< in the order they were asked for, those whose files are of another run included
-    std::size_t kept = 0;          ///< whole, and of the same scene and settings
-    std::size_t of_another = 0;    ///< there, but not that
+    std::vector<int> missing;    ///< in the order they were asked for, those whose files are of another run included
+    std::size_t kept = 0;        ///< whole, and of the same scene and settings
+    std::size_t of_another = 0;  ///< there, but not that
 };
 
 /// Looks at the files that are there; removes what runs that were killed have left beside them.

@@ -73,8 +73,8 @@ const SourceFile& SceneFolder::read(const fs::path& shown, const fs::path& canon
     const std::streamoff size = file ? static_cast<std::streamoff>(file.tellg()) : -1;
     if (size < 0) cannot("open", shown, std::strerror(errno), mention);
     if (static_cast<std::uint64_t>(size) > limits_.file_bytes)
-        throw LimitError(mention.place + printable(shown.string()) + " has " + std::to_string(size) + " bytes, more than " +
-                             std::to_string(limits_.file_bytes),
+        throw LimitError(mention.place + printable(shown.string()) + " has " + std::to_string(size) +
+                             " bytes, more than " + std::to_string(limits_.file_bytes),
                          "file_bytes", mention.chain);
     auto source = std::make_unique<SourceFile>(SourceFile{printable(shown.string()), canonical, {}, 0});
     source->text.resize(static_cast<std::size_t>(size));

@@ -45,8 +45,8 @@ private:
     }
     [[noreturn]] void over_limit(const std::string& has, std::uint64_t limit, const char* name) const
     {
-        throw LimitError(place_ + "picture " + printable(file_.string()) + " " + has + ", more than " + std::to_string(limit),
-                         name);
+        throw LimitError(
+            place_ + "picture " + printable(file_.string()) + " " + has + ", more than " + std::to_string(limit), name);
     }
     void check_regular() const;
     std::string content() const;
@@ -105,9 +105,9 @@ const char* PictureFile::format(std::string_view begin) const
     };
     using namespace std::string_view_literals;
     static constexpr Magic known[] = {
-        {"P1"sv, "pnm"},           {"P2"sv, "pnm"},        {"P3"sv, "pnm"},      {"P4"sv, "pnm"},
-        {"P5"sv, "pnm"},           {"P6"sv, "pnm"},        {"\x89PNG"sv, "png"}, {"\xff\xd8\xff"sv, "jpeg"},
-        {"II*\0"sv, "tiff"},       {"MM\0*"sv, "tiff"},    {"BM"sv, "bmp"},      {"\x76\x2f\x31\x01"sv, "openexr"},
+        {"P1"sv, "pnm"},     {"P2"sv, "pnm"},     {"P3"sv, "pnm"},      {"P4"sv, "pnm"},
+        {"P5"sv, "pnm"},     {"P6"sv, "pnm"},     {"\x89PNG"sv, "png"}, {"\xff\xd8\xff"sv, "jpeg"},
+        {"II*\0"sv, "tiff"}, {"MM\0*"sv, "tiff"}, {"BM"sv, "bmp"},      {"\x76\x2f\x31\x01"sv, "openexr"},
     };
     for (const Magic& magic : known)
         if (begin.starts_with(magic.bytes)) return magic.format;
@@ -175,8 +175,7 @@ Texture PictureFile::decode() const
     Texture texture{spec.width, spec.height, {}};
     const auto channels = static_cast<std::size_t>(spec.nchannels);
     texture.pixels.resize(static_cast<std::size_t>(spec.width) * static_cast<std::size_t>(spec.height) * channels);
-    if (!in->read_image(0, 0, 0, spec.nchannels, OIIO::TypeUInt8, texture.pixels.data()))
-        cannot_decode(in->geterror());
+    if (!in->read_image(0, 0, 0, spec.nchannels, OIIO::TypeUInt8, texture.pixels.data())) cannot_decode(in->geterror());
     if (channels != 3) texture.pixels = to_rgb(texture.pixels, channels);
     return texture;
 }

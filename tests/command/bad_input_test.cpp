@@ -15,8 +15,8 @@ namespace {
 
 const std::string folder = "tests/bad_input/";  // tests run in the project's root
 
-/// A line of expected.txt: exit code, scene file, options, message; parted by tabs. In the message `\n` is a line's end,
-/// and a `*` at its end stands for the words of a decoder, which are not ours.
+/// A line of expected.txt: exit code, scene file, options, message; parted by tabs. In the message `\n` is a line's
+/// end, and a `*` at its end stands for the words of a decoder, which are not ours.
 struct Case {
     int code = 0;
     std::string file, options, message;

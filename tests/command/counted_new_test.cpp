@@ -43,9 +43,13 @@ public:
 
     std::vector<std::string> arguments() const
     {
-        return {"render",    (folder_.path() / "scene.aff").string(), "--frames",   "0-1",   "--size",   "8x6",
-                "--strategy", strategy_, "--threads", "1", "--progress", "never", "--output",
-                (out() / "#.png").string()};
+        return {"render",     (folder_.path() / "scene.aff").string(),
+                "--frames",   "0-1",
+                "--size",     "8x6",
+                "--strategy", strategy_,
+                "--threads",  "1",
+                "--progress", "never",
+                "--output",   (out() / "#.png").string()};
     }
     /// The same, past the reading of words: CLI11 allocates where it has promised not to throw.
     command::RenderJob job() const
@@ -133,8 +137,8 @@ TEST_CASE("whichever allocation of a run fails, it ends cleanly or in the same p
         }
         CHECK(tally.failures > 300);
         MESSAGE(strategy << ": " << tally.failures << " allocations failed, one a run; " << tally.clean
-                         << " runs ended with exit code 5, " << tally.same << " with the same pictures, " << tally.spared
-                         << " of them because it was OpenImageIO's");
+                         << " runs ended with exit code 5, " << tally.same << " with the same pictures, "
+                         << tally.spared << " of them because it was OpenImageIO's");
     }
 }
 
@@ -159,7 +163,8 @@ TEST_CASE("a run that may not have the memory it needs ends cleanly or in the sa
             CHECK((outcome.code == 0 || outcome.code == 5));
             CHECK(render.has_whole_frames_only(whole));
             if (outcome.code == 0) CHECK(contents(render.out()).size() == 2);
-            if (outcome.code == 5) CHECK(outcome.err.find("more memory is needed than --memory-limit") != std::string::npos);
+            if (outcome.code == 5)
+                CHECK(outcome.err.find("more memory is needed than --memory-limit") != std::string::npos);
             CHECK(command::MemoryLimit::peak() <= peak * percent / 100);
             if (percent == 110) CHECK(outcome.code == 0);
             clean += outcome.code == 5;

@@ -42,8 +42,10 @@ struct Run {
     explicit Run(const std::string& frames = "0-4", const std::string& ending = "png")
     {
         fs::create_directory(out());
-        arguments = {"render", folder.write("square.aff", moving_square).string(), "--frames", frames, "--progress",
-                     "never", "--output", (out() / ("#." + ending)).string()};
+        arguments = {"render",     folder.write("square.aff", moving_square).string(),
+                     "--frames",   frames,
+                     "--progress", "never",
+                     "--output",   (out() / ("#." + ending)).string()};
     }
     fs::path out() const { return folder.path() / "out"; }
     Outcome call_with(std::vector<std::string> more) const
@@ -111,7 +113,8 @@ TEST_CASE("resumed, a run keeps its own whole frames and renders all others")
         const Outcome outcome = run.call_with({"--resume"});
         CAPTURE(outcome.err);
         CHECK(outcome.code == 0);
-        CHECK(outcome.err.find("1 of 5 frames are there; 3 of other scenes or settings, or not whole, are rendered anew") !=
+        CHECK(outcome.err.find(
+                  "1 of 5 frames are there; 3 of other scenes or settings, or not whole, are rendered anew") !=
               std::string::npos);
         CHECK(contents(run.out()) == whole);
         CHECK(fs::last_write_time(run.out() / ("1." + ending)) == written);
@@ -243,7 +246,8 @@ TEST_CASE("a folder that vanishes in the middle is made anew, one that becomes a
     const Outcome outcome = run.call_with({"--output", pattern});
     CHECK(outcome.code == 4);
     CHECK(outcome.err.find("frames/3/picture.png: cannot make its folder") != std::string::npos);
-    for (const char* frame : {"0", "1", "2"}) CHECK(fs::is_regular_file(run.folder.path() / "frames" / frame / "picture.png"));
+    for (const char* frame : {"0", "1", "2"})
+        CHECK(fs::is_regular_file(run.folder.path() / "frames" / frame / "picture.png"));
     fs::remove_all(run.folder.path() / "frames");
     CHECK(run.call_with({"--output", pattern, "--resume"}).code == 0);
 }

@@ -22,7 +22,8 @@ double coordinate(Taking& in)
     if (kind < 210) return lattice + 0x1p-22 * (static_cast<double>(kind) - 200.0);
     if (kind < 225) return std::ldexp(lattice, static_cast<int>(kind) - 217);
     if (kind < 240) return lattice * static_cast<double>(in.byte()) / 255.0;
-    constexpr double special[] = {1e-30, 1e30, -1e30, 3e38, 1e-12, -1e-12, 1e6, -1e6, 1e9, 0.1, 1.0 / 3, 7.0, -7.0, 1e15, 1e18, -0.0};
+    constexpr double special[] = {1e-30, 1e30, -1e30,   3e38, 1e-12, -1e-12, 1e6,  -1e6,
+                                  1e9,   0.1,  1.0 / 3, 7.0,  -7.0,  1e15,   1e18, -0.0};
     return special[kind - 240];
 }
 
@@ -93,7 +94,8 @@ private:
         const glm::dvec3 from = point(in_);
         for (unsigned i = 0; i < side * side; ++i) {
             const glm::dvec3 a = from + glm::dvec3(i % side, i / side, 0);
-            text_ << "p 4 " << a << a + glm::dvec3(1, 0, 0) << a + glm::dvec3(1, 1, 0) << a + glm::dvec3(0, 1, 0) << '\n';
+            text_ << "p 4 " << a << a + glm::dvec3(1, 0, 0) << a + glm::dvec3(1, 1, 0) << a + glm::dvec3(0, 1, 0)
+                  << '\n';
         }
     }
 
@@ -190,7 +192,8 @@ void compare(const Scene& scene, const std::vector<double>& times, const std::ve
             strategy->update(now);
             int hits = 0;
             if (const int different = test::differences(*list, *strategy, rays, hits); different != 0)
-                throw Finding(std::string(entry.name) + " differs from list for " + std::to_string(different) + " rays");
+                throw Finding(std::string(entry.name) + " differs from list for " + std::to_string(different) +
+                              " rays");
         }
     }
 }
