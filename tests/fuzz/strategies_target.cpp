@@ -1,8 +1,10 @@
+#include <array>
 #include <cmath>
 #include <limits>
 #include <sstream>
 
 #include "bench/strategies.h"
+#include "engine/core/errors.h"
 #include "engine/scene/pose.h"
 #include "tests/fuzz/targets.h"
 #include "tests/support/compare_hits.h"
