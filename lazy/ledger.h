@@ -14,11 +14,16 @@ public:
     /// Asks for bytes before they are allocated; false where the limit would be passed: then nothing is built.
     bool charge(std::uint64_t bytes)
     {
-        const std::uint64_t before = bytes_.fetch_add(bytes, std::memory_order_relaxed);
-        if (limit_ == 0 || before + bytes <= limit_) return true;
-        give_back(bytes);
-        note_refused();
-        return false;
+        // By compare-exchange: what is added first and taken back afterwards would, in between, have others refused
+        // that there is room for.
+        std::uint64_t before = bytes_.load(std::memory_order_relaxed);
+        do {
+            if (limit_ != 0 && (bytes > limit_ || before > limit_ - bytes)) {
+                note_refused();
+                return false;
+            }
+        } while (!bytes_.compare_exchange_weak(before, before + bytes, std::memory_order_relaxed));
+        return true;
     }
     /// There is no memory for a build, whatever the limit.
     void note_refused() { refused_.fetch_add(1, std::memory_order_relaxed); }

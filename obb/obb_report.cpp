@@ -40,6 +40,7 @@ StructureReport ObbStrategy<Real>::report() const
             boxes_[i].bytes() + sizeof(Box) + sizeof(First) + sizeof(Fit) + sizeof(BoxPlace) + sizeof(Placed);
         if (!places_[i].is_there) continue;
         if (const GridStructure* inside = boxes_[i].grid()) add(*inside);
+        report.refused_builds += boxes_[i].promise && boxes_[i].promise->made.is_refused();
         report.primitives += hierarchy_.boxes[i].count();
     }
     for (const BoxedGrid& supergrid : supergrids_) {

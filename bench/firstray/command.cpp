@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <new>
+#include <optional>
 
+#include "bench/firstray/counted_new.h"
 #include "bench/firstray/manual.h"
 #include "bench/firstray/options.h"
 #include "bench/firstray/words.h"
@@ -71,7 +73,27 @@ std::string one_line(std::string text)
     return text;
 }
 
-void dispatch(std::span<const std::string> arguments, Streams streams)
+/// What --memory-limit asks for, from when it is read to the end of the run.
+class Memory {
+public:
+    void set(const std::string& size)
+    {
+        if (size.empty()) return;
+        size_ = size;
+        limit_.emplace(parse_amount("--memory-limit", size));
+    }
+    std::string shortage() const
+    {
+        return limit_ && MemoryLimit::was_hit() ? "more memory is needed than --memory-limit " + size_ + " allows"
+                                           : "out of memory";
+    }
+
+private:
+    std::string size_;
+    std::optional<MemoryLimit> limit_;
+};
+
+void dispatch(std::span<const std::string> arguments, Streams streams, Memory& limits)
 {
     Jobs jobs;
     const bool all = std::find(arguments.begin(), arguments.end(), "--help-all") != arguments.end();
@@ -88,6 +110,7 @@ void dispatch(std::span<const std::string> arguments, Streams streams)
     const CLI::App& command = *app.get_subcommands().front();
     refuse_extras(app);
     refuse_extras(command);
+    limits.set(jobs.memory);
     if (command.get_name() == "manual") return print_manual(jobs.manual, streams);
     if (command.get_name() != "info") require_scene(command);
     if (command.get_name() == "render") return render_scene(jobs.render, streams);
@@ -116,14 +139,15 @@ int report(Streams streams, Fault fault, std::string_view message)
 
 int run(std::span<const std::string> arguments, Streams streams)
 {
+    Memory memory;
     try {
-        dispatch(arguments, streams);
+        dispatch(arguments, streams, memory);
         if (!streams.out.flush()) throw FileError("cannot write to standard output");
         return 0;
     } catch (const Error& error) {
         return report(streams, error.fault(), error.what());
     } catch (const std::bad_alloc&) {
-        return report(streams, Fault::limit, "out of memory");
+        return report(streams, Fault::limit, memory.shortage());
     } catch (const std::exception& error) {
         return report(streams, Fault::rendering, one_line(error.what()));
     } catch (...) {

@@ -1,14 +1,14 @@
 #include <fmt/format.h>
 
-#include <csignal>
-
 #include "bench/compare/compare.h"
 #include "bench/compare/regression.h"
 #include "bench/compare/table.h"
 #include "bench/compare/trade.h"
 #include "bench/firstray/frame_list.h"
+#include "bench/firstray/interrupt.h"
 #include "bench/firstray/jobs.h"
 #include "bench/firstray/progress.h"
+#include "bench/firstray/scene_input.h"
 #include "bench/firstray/search.h"
 #include "bench/firstray/words.h"
 #include "engine/core/pending_file.h"
@@ -19,27 +19,6 @@ namespace {
 
 constexpr int default_frames = 8;
 constexpr std::size_t list_is_quick = 1000;  // primitives: more of them keep `list` out unless it is asked for
-
-volatile std::sig_atomic_t interrupted = 0;
-
-/// While it lives, Ctrl-C asks for the end; a second one ends at once.
-class InterruptGuard {
-public:
-    InterruptGuard()
-    {
-        interrupted = 0;
-        struct sigaction action = {};
-        action.sa_handler = [](int) { interrupted = 1; };
-        action.sa_flags = SA_RESETHAND;
-        sigaction(SIGINT, &action, &former_);
-    }
-    ~InterruptGuard() { sigaction(SIGINT, &former_, nullptr); }
-    InterruptGuard(const InterruptGuard&) = delete;
-    InterruptGuard& operator=(const InterruptGuard&) = delete;
-
-private:
-    struct sigaction former_ = {};
-};
 
 std::vector<Contestant> contestants_of(const CompareJob& job, const Scene& scene)
 {
@@ -128,7 +107,7 @@ void compare_strategies(const CompareJob& job, Streams streams)
     check_words(job, streams.terminal);
     const Scene scene = read_scene(job.scene);
     const compare::Plan plan = plan_of(job, scene);
-    const std::vector<Texture> textures = image::read_textures(scene, {.allow_outside = job.scene.allow_outside});
+    const std::vector<Texture> textures = read_textures(scene, job.scene);
     const std::filesystem::path folder = job.report.empty() ? "out/" + scene.name + "-report" : job.report;
     check_writable(folder);
     const InterruptGuard guard;
@@ -137,7 +116,7 @@ void compare_strategies(const CompareJob& job, Streams streams)
         Progress progress(streams.err, progress_style(job.progress, streams.terminal), 0);
         const compare::Watch watch{[&](std::size_t steps) { progress.expect(steps); },
                                    [&](const std::string& what) { progress.step(what); },
-                                   [] { return interrupted != 0; }};
+                                   [] { return InterruptGuard::is_interrupted(); }};
         report = compare::compare(scene, textures, plan, {job.command_line, job.scene.file}, watch);
     }
     compare::write_report(folder, report);

@@ -4,6 +4,7 @@
 
 #include "bench/firstray/frame_list.h"
 #include "bench/firstray/jobs.h"
+#include "bench/firstray/scene_input.h"
 #include "bench/firstray/scene_summary.h"
 #include "bench/firstray/search.h"
 #include "bench/firstray/stats.h"
@@ -253,7 +254,7 @@ Json describe_scene(const InfoJob& job)
 {
     const Scene scene = read_scene(job.scene);
     check_frame(job.frame, scene.frames);
-    Json info = describe(scene, image::read_textures(scene, {.allow_outside = job.scene.allow_outside}));
+    Json info = describe(scene, read_textures(scene, job.scene));
     if (job.structure) add_structure(job, scene, info);
     return info;
 }

@@ -13,6 +13,7 @@ namespace firstray::command {
 struct SceneChoice {
     std::string file;
     bool allow_outside = false;  ///< includes and textures may lie outside the scene's folder
+    std::string limits;          ///< NAME=N,... that replace defaults
 };
 
 struct SearchChoice {
@@ -39,6 +40,7 @@ struct RenderJob {
     std::string output;  ///< empty: the scene's name in the current folder
     std::string stats;   ///< empty: none
     std::string progress = "auto";
+    bool resume = false;  ///< keep the frames that are there
     bool table = false;
     bool structure = false;  ///< draw it over the pictures
 };
@@ -88,8 +90,5 @@ void render_scene(const RenderJob& job, Streams streams);
 void compare_strategies(const CompareJob& job, Streams streams);
 void print_info(const InfoJob& job, Streams streams);
 void trace_rays(const TraceJob& job, Streams streams);
-
-/// throws  FileError, SceneError, LimitError
-Scene read_scene(const SceneChoice& choice);
 
 }  // namespace firstray::command

@@ -75,6 +75,8 @@ void add_scene(CLI::App& app, SceneChoice& scene)
 {
     app.add_flag("--allow-outside", scene.allow_outside, "let includes and textures lie outside the scene's folder")
         ->group(seldom);
+    add(app, "--limit", scene.limits, "NAME=N,...", "allow more, or less, than a limit that a message names")
+        ->group(seldom);
     add(app, "SCENE", scene.file, " ", "scene file (.aff)");
 }
 
@@ -126,6 +128,7 @@ void add_render(CLI::App& app, RenderJob& job)
     app.add_flag("--structure", job.structure,
                  "draw boxes and filled cells over the pictures; those of few pixels fade out");
     add(app, "--output", job.output, "NAME", "a run of # is the frame; default SCENE.####.png here, .exr with --aov");
+    app.add_flag("--resume", job.resume, "keep frames whose files record this scene and these settings");
     add(app, "--stats", job.stats, "FILE", "write times, rays and structure of every frame as JSON");
     app.add_flag("--table", job.table, "print a line of times per frame to standard output");
     add(app, "--progress", job.progress, "WHEN", "auto (not beside --table), always or never; default auto");
@@ -215,6 +218,8 @@ std::unique_ptr<CLI::App> make_command_line(Jobs& jobs, bool all)
              jobs.info);
     add_trace(*app->add_subcommand("trace", "find what given rays hit"), jobs.trace);
     for (CLI::App* command : app->get_subcommands({})) {
+        add(*command, "--memory-limit", jobs.memory, "SIZE", "most memory to allocate, e.g. 2G; default no limit")
+            ->group(seldom);
         command->set_help_all_flag("--help-all", "print this and the options that are seldom used");
         if (!all) hide_seldom(*command);
     }

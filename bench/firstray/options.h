@@ -15,6 +15,7 @@ struct Jobs {
     CompareJob compare;
     InfoJob info;
     TraceJob trace;
+    std::string memory;  ///< --memory-limit of any of them; empty: no limit
     std::string manual;  ///< which page the hidden command `manual` prints
 };
 

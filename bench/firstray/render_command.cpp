@@ -3,14 +3,16 @@
 #include <set>
 
 #include "bench/firstray/frame_list.h"
+#include "bench/firstray/interrupt.h"
 #include "bench/firstray/jobs.h"
 #include "bench/firstray/output_pattern.h"
 #include "bench/firstray/progress.h"
+#include "bench/firstray/resume.h"
+#include "bench/firstray/scene_input.h"
 #include "bench/firstray/search.h"
 #include "bench/firstray/stats.h"
 #include "bench/firstray/words.h"
 #include "bench/measure/frame_loop.h"
-#include "engine/aff/reader.h"
 #include "engine/render/draw_structure.h"
 #include "engine/render/frameless.h"
 
@@ -24,6 +26,7 @@ struct Plan {
     int turns = 1;  ///< of frameless rendering
     std::vector<image::Aov> aovs;
     std::string output;
+    Attributes recorded;  ///< in every frame's file
 };
 
 Plan plan_of(const RenderJob& job, const std::vector<FrameRange>& ranges, const Scene& scene)
@@ -34,7 +37,8 @@ Plan plan_of(const RenderJob& job, const std::vector<FrameRange>& ranges, const 
     plan.aovs = parse_aovs(job.aovs);
     const glm::ivec2 size = job.size.empty() ? glm::ivec2(scene.view.width, scene.view.height) : parse_size(job.size);
     plan.options = {
-        .width = size.x, .height = size.y, .depth = job.depth, .samples = job.samples, .costs = any_cost(plan.aovs)};
+        .width = size.x, .height = size.y, .depth = job.depth, .samples = job.samples, .costs = any_cost(plan.aovs),
+        .cancelled = &InterruptGuard::is_interrupted};
     plan.output = !job.output.empty() ? job.output : scene.name + (plan.aovs.empty() ? ".####.png" : ".####.exr");
     check_pattern(plan.output, plan.frames.size(), !plan.aovs.empty());
     return plan;
@@ -55,7 +59,9 @@ std::vector<FrameRange> check_words(const RenderJob& job, bool terminal)
     const bool layers = !parse_aovs(job.aovs).empty();
     if (!job.output.empty()) check_pattern(job.output, 1, layers);
     progress_style(job.progress, terminal);
-    parse_share("--frameless", job.frameless);
+    limits_of(job.scene);
+    if (parse_share("--frameless", job.frameless) != 1 && job.resume)
+        throw UsageError("--resume cannot go on with --frameless: a frame holds pixels of those before it");
     return parse_frame_list(job.frames);
 }
 
@@ -79,15 +85,22 @@ Json settings_of(const RenderJob& job, const Plan& plan, const Executor& executo
             {"allow_outside", job.scene.allow_outside},
             {"aov", job.aovs},
             {"structure", job.structure},
+            {"resume", job.resume},
             {"output", plan.output}};
 }
 
-std::vector<std::pair<std::string, std::string>> attributes_of(const RenderJob& job, const Scene& scene, int frame)
+/// All that the pictures may depend on. No JSON: its destructor allocates, and may then not fail.
+std::string recorded_settings(const RenderJob& job, const Plan& plan)
 {
-    return {{"firstray:scene", scene.name},
-            {"firstray:frame", std::to_string(frame)},
-            {"firstray:strategy", job.search.strategy},
-            {"firstray:precision", job.search.precision}};
+    std::string text = fmt::format(
+        "strategy={} precision={} size={}x{} depth={} spp={} frameless=1/{} seed={} grid-density={} max-list={} "
+        "grid-depth={} aov={} structure={}",
+        job.search.strategy, job.search.precision, plan.options.width, plan.options.height, plan.options.depth,
+        plan.options.samples, plan.turns, job.seed, job.search.grid_density, job.search.max_list, job.search.grid_depth,
+        job.aovs, job.structure);
+    for (const auto& [flag, word] : job.search.own)
+        if (!word.empty()) text += fmt::format(" {}={}", flag, word);
+    return text;
 }
 
 /// Says once of every node that its transform is singular.
@@ -107,11 +120,11 @@ private:
 };
 
 /// The outline is drawn over a copy: the picture itself is what was hashed.
-void write_picture(const RenderJob& job, const Plan& plan, const Pose& pose, int frame, const Frame& picture,
+void write_picture(const Plan& plan, const Pose& pose, int frame, const Frame& picture,
                    std::span<const StructureBox> outline)
 {
     const auto write = [&](const Frame& shown) {
-        image::write_frame(frame_file(plan.output, frame), shown, plan.aovs, attributes_of(job, *pose.scene, frame));
+        image::write_frame(frame_file(plan.output, frame), shown, plan.aovs, frame_attributes(plan.recorded, frame));
     };
     if (outline.empty()) return write(picture);
     write(draw_structure(picture, camera_rays(pose, picture.width, picture.height), outline));
@@ -140,7 +153,7 @@ Totals render_frames(const RenderJob& job, const Plan& plan, FrameLoop<Real>& lo
         const Pose& pose = loop.current_pose();
         warnings.add(pose, frame, progress);
         const std::vector<StructureBox> outline = job.structure ? loop.outline() : std::vector<StructureBox>{};
-        write_picture(job, plan, pose, frame, picture, outline);
+        write_picture(plan, pose, frame, picture, outline);
         drawn = drawn || !outline.empty();
         stats_file.add(stats);
         if (job.table) streams.out << table_row(stats) << std::flush;
@@ -157,6 +170,7 @@ Totals render_frames(const RenderJob& job, const Plan& plan, FrameLoop<Real>& lo
 template <typename Real>
 Totals render_all(const RenderJob& job, const Plan& plan, FrameLoop<Real> loop, StatsFile& stats_file, Streams streams)
 {
+    const InterruptGuard guard;
     try {
         const Totals totals = render_frames(job, plan, loop, stats_file, streams);
         stats_file.flush();
@@ -164,11 +178,25 @@ Totals render_all(const RenderJob& job, const Plan& plan, FrameLoop<Real> loop, 
     } catch (...) {
         try {
             stats_file.flush();
-        } catch (const Error&) {
+        } catch (...) {
             // the first failure is the one to report
         }
+        if (InterruptGuard::is_interrupted())
+            throw Error(Fault::rendering, "interrupted; finished frames are whole, --resume goes on behind them");
         throw;
     }
+}
+
+/// Leaves out the frames that are there.
+void keep_finished(Plan& plan, Streams streams)
+{
+    Resumption left = resume(plan.frames, plan.output, plan.recorded);
+    streams.err << fmt::format("firstray: {} of {} frames are there{}\n", left.kept, plan.frames.size(),
+                               left.of_another == 0 ? ""
+                                                    : fmt::format("; {} of other scenes or settings, or not whole, "
+                                                                  "are rendered anew",
+                                                                  left.of_another));
+    plan.frames = std::move(left.missing);
 }
 
 }  // namespace
@@ -177,11 +205,14 @@ void render_scene(const RenderJob& job, Streams streams)
 {
     const std::vector<FrameRange> ranges = check_words(job, streams.terminal);
     const Scene scene = read_scene(job.scene);
-    const Plan plan = plan_of(job, ranges, scene);
-    const std::vector<Texture> textures = image::read_textures(scene, {.allow_outside = job.scene.allow_outside});
+    Plan plan = plan_of(job, ranges, scene);
+    const std::vector<Texture> textures = read_textures(scene, job.scene);
     const Executor executor(job.search.threads);
+    plan.recorded = run_attributes(scene, textures, recorded_settings(job, plan));
+    if (job.resume) keep_finished(plan, streams);
+    if (plan.frames.empty()) return;
     const AnyStrategy strategy = make_strategy(job.search, scene, executor);
-    StatsFile stats_file(job.stats, settings_of(job, plan, executor));
+    StatsFile stats_file(job.stats, job.stats.empty() ? Json() : settings_of(job, plan, executor));
     const Totals totals = std::visit(
         [&](const auto& chosen) {
             return render_all(job, plan, FrameLoop(scene, textures, *chosen, executor), stats_file, streams);

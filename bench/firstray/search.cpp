@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "bench/firstray/words.h"
-#include "engine/aff/reader.h"
 
 namespace firstray::command {
 namespace {
@@ -99,13 +98,6 @@ AnyStrategy make_strategy(const SearchChoice& choice, const Scene& scene, const 
         if (!word.empty()) options.own.emplace_back(flag, word);
     if (options.precision == Precision::double_) return entry.make_double(scene, options);
     return entry.make(scene, options);
-}
-
-Scene read_scene(const SceneChoice& choice)
-{
-    ReadLimits limits;
-    limits.allow_outside = choice.allow_outside;
-    return read_aff(choice.file, limits);
 }
 
 }  // namespace firstray::command

@@ -21,6 +21,7 @@ std::string table_row(const FrameStats& stats)
 
 StatsFile::StatsFile(std::filesystem::path file, Json settings) : file_(std::move(file))
 {
+    if (file_.empty()) return;
     document_["machine"] = describe_machine();
     document_["settings"] = std::move(settings);
     document_["frames"] = Json::array();
@@ -28,6 +29,7 @@ StatsFile::StatsFile(std::filesystem::path file, Json settings) : file_(std::mov
 
 void StatsFile::add(const FrameStats& stats)
 {
+    if (file_.empty()) return;
     document_["frames"].push_back(to_json(stats));
     const bool recent = written_ && std::chrono::steady_clock::now() - last_write_ < std::chrono::seconds(1);
     if (!recent) flush();

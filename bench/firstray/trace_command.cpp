@@ -6,6 +6,7 @@
 #include "bench/firstray/frame_list.h"
 #include "bench/firstray/jobs.h"
 #include "bench/firstray/ray_file.h"
+#include "bench/firstray/scene_input.h"
 #include "bench/firstray/search.h"
 #include "engine/core/pending_file.h"
 

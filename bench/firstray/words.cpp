@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -56,11 +57,26 @@ int parse_int(std::string_view what, std::string_view text, int low, int high)
     return value;
 }
 
+std::uint64_t parse_amount(std::string_view what, std::string_view text)
+{
+    constexpr std::string_view suffixes = "KMGT";
+    const std::size_t suffix = text.empty() ? std::string_view::npos : suffixes.find(text.back());
+    const bool has_suffix = suffix != std::string_view::npos;
+    const std::string_view digits = text.substr(0, text.size() - has_suffix);
+    const std::uint64_t unit = has_suffix ? std::uint64_t{1} << (10 * (suffix + 1)) : 1;
+    std::uint64_t value = 0;
+    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+    if (error != std::errc{} || end != digits.data() + digits.size() ||
+        value > std::numeric_limits<std::uint64_t>::max() / unit)
+        throw UsageError(fmt::format("{}: '{}', expected a whole number, perhaps with K, M, G or T", what, text));
+    return value * unit;
+}
+
 glm::ivec2 parse_size(std::string_view text)
 {
     const auto axes = split(text, 'x');
     if (axes.size() != 2) throw UsageError(fmt::format("--size: '{}', expected WIDTHxHEIGHT, e.g. 800x600", text));
-    const int largest = ReadLimits{}.resolution;
+    const int largest = static_cast<int>(ReadLimits{}.resolution);
     return {parse_int("--size: width", axes[0], 1, largest), parse_int("--size: height", axes[1], 1, largest)};
 }
 

@@ -27,6 +27,10 @@ std::string_view trim(std::string_view text);
 /// throws  UsageError
 int parse_int(std::string_view what, std::string_view text, int low, int high);
 
+/// A whole number that may end in K, M, G or T: times 1024, 1024^2 ...
+/// throws  UsageError
+std::uint64_t parse_amount(std::string_view what, std::string_view text);
+
 /// "WIDTHxHEIGHT" of a picture, as --size takes it.
 /// throws  UsageError
 glm::ivec2 parse_size(std::string_view text);

@@ -66,11 +66,16 @@ void SceneBuilder::check_room(std::size_t primitives, const Lexer& in) const
     if (primitives > limits_.primitives - primitives_) in.over_limit("primitives", limits_.primitives, "primitives");
 }
 
+void SceneBuilder::check_vertices(std::size_t more, std::size_t list, const Lexer& in) const
+{
+    if (list > limits_.vertices || more > limits_.vertices - list) in.over_limit("vertices", limits_.vertices, "vertices");
+}
+
 void SceneBuilder::push_node(Node node, const Open& open, const Lexer& in)
 {
-    if (depth() >= static_cast<std::size_t>(limits_.transform_depth))
-        in.over_limit("transforms inside each other", static_cast<std::uint64_t>(limits_.transform_depth),
-                      "transform_depth");
+    if (depth() >= limits_.transform_depth)
+        in.over_limit("transforms inside each other", limits_.transform_depth, "transform_depth");
+    if (scene.nodes.size() > limits_.transforms) in.over_limit("transforms", limits_.transforms, "transforms");
     node.parent = open_.back().node;
     scene.nodes.push_back(std::move(node));
     open_.push_back(open);
@@ -100,10 +105,13 @@ void SceneBuilder::open_dynamic(const std::string& name, const Lexer& in)
     push_node(std::move(node), open, in);
 }
 
-std::uint32_t SceneBuilder::texture(const std::string& name)
+std::uint32_t SceneBuilder::texture(const std::string& name, const Lexer& in)
 {
     const auto [entry, is_new] = textures_.try_emplace(name, static_cast<std::uint32_t>(scene.textures.size()));
-    if (is_new) scene.textures.push_back(name);
+    if (!is_new) return entry->second;
+    if (scene.textures.size() >= limits_.textures) in.over_limit("textures", limits_.textures, "textures");
+    scene.textures.push_back(name);
+    scene.texture_places.push_back(in.mention().place);
     return entry->second;
 }
 
@@ -146,6 +154,9 @@ void SceneBuilder::add(TriangleList list, const Lexer& in)
 {
     if (list.triangles.empty()) return;
     check_room(list.triangles.size(), in);
+    check_vertices(list.positions.size(), vertices_, in);
+    check_vertices(list.normals.size(), scene.normals.size(), in);
+    check_vertices(list.uvs.size(), scene.uvs.size(), in);
     Draft& group = draft(false);
     group.triangle_parts.push_back(make_part(group.triangles.size(), list.triangles.size(), list.texture));
     const auto first_normal = static_cast<std::uint32_t>(scene.normals.size());
@@ -161,6 +172,7 @@ void SceneBuilder::add(TriangleList list, const Lexer& in)
             if (vertex == none) {
                 vertex = static_cast<std::uint32_t>(group.positions.size());
                 group.positions.push_back(baked(list.positions[triangle.vertex[k]], in));
+                ++vertices_;
             }
             triangle.vertex[k] = vertex;
             if (triangle.normal[k] != none) triangle.normal[k] += first_normal;
@@ -184,6 +196,8 @@ void SceneBuilder::add(Quadric quadric, const Lexer& in)
 void SceneBuilder::add(std::vector<DeformingKey> keys, const Lexer& in)
 {
     check_room(1, in);
+    check_vertices(3, vertices_, in);
+    vertices_ += 3;
     Draft& group = draft(true);
     group.triangle_parts.push_back(make_part(group.triangles.size(), 1, none));
     const glm::dmat3 normals = normal_matrix(open_.back().owner_from_node);
@@ -209,8 +223,9 @@ void SceneBuilder::set_animation(Animation animation)
     scene.animations[entry->second] = std::move(animation);
 }
 
-void SceneBuilder::add_light(const Light& light, const std::string& name)
+void SceneBuilder::add_light(const Light& light, const std::string& name, const Lexer& in)
 {
+    if (scene.lights.size() >= limits_.lights) in.over_limit("lights", limits_.lights, "lights");
     if (!name.empty()) animated_lights_.emplace_back(scene.lights.size(), name);
     scene.lights.push_back(light);
 }

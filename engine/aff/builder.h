@@ -33,6 +33,8 @@ public:
     void count(std::string_view statement);
     /// Throws LimitError if `primitives` more would be too many; to be asked before reading them.
     void check_room(std::size_t primitives, const Lexer& in) const;
+    /// The same of vertices, or of normals or texture coordinates, whose lists are `list` long.
+    void check_vertices(std::size_t more, std::size_t list, const Lexer& in) const;
 
     void open_static(const Transform& parent_from_node, const Lexer& in);
     void open_dynamic(const std::string& name, const Lexer& in);
@@ -42,12 +44,13 @@ public:
     /// From the innermost open transform to the nearest dynamic one around it, or to the world.
     const Transform& owner_from_open() const { return open_.back().owner_from_node; }
 
-    std::uint32_t texture(const std::string& name);
+    /// in  where its name was read
+    std::uint32_t texture(const std::string& name, const Lexer& in);
     void add(TriangleList list, const Lexer& in);
     void add(Quadric quadric, const Lexer& in);  ///< group_from_quadric: open_from_quadric
     void add(std::vector<DeformingKey> keys, const Lexer& in);
     void set_animation(Animation animation);                      ///< replaces an earlier one of the same name
-    void add_light(const Light& light, const std::string& name);  ///< name: empty unless animated
+    void add_light(const Light& light, const std::string& name, const Lexer& in);  ///< name: empty unless animated
 
     /// The finished scene. The builder is used up.
     Scene finish();
@@ -82,7 +85,7 @@ private:
     };
 
     const ReadLimits& limits_;
-    std::uint64_t primitives_ = 0;
+    std::uint64_t primitives_ = 0, vertices_ = 0;
     std::vector<Open> open_{Open{}};
     std::map<std::pair<std::uint32_t, bool>, Draft> drafts_;  // by owner and deforming: the order of groups
     std::unordered_map<Material, std::uint32_t, MaterialHash> materials_;

@@ -39,19 +39,27 @@ std::string shown(const FilePlace& at)
 
 }  // namespace
 
-std::string quote(std::string_view text)
+std::string printable(std::string_view text)
 {
-    constexpr std::size_t longest = 80;
     constexpr char digits[] = "0123456789abcdef";
-    std::string result = "\"";
-    for (const char c : text.substr(0, longest)) {
+    std::string result;
+    for (const char c : text) {
         const auto byte = static_cast<unsigned char>(c);
         if (byte < 0x20 || byte >= 0x7f)
             result += {'\\', 'x', digits[byte >> 4], digits[byte & 15]};
-        else if (c == '"' || c == '\\')
-            result += {'\\', c};
         else
             result += c;
+    }
+    return result;
+}
+
+std::string quote(std::string_view text)
+{
+    constexpr std::size_t longest = 80;
+    std::string result = "\"";
+    for (const char c : text.substr(0, longest)) {
+        if (c == '"' || c == '\\') result += '\\';
+        result += printable({&c, 1});
     }
     return result + (text.size() > longest ? "...\"" : "\"");
 }
@@ -222,8 +230,7 @@ void Lexer::statement_fault(const std::string& read, const std::string& expected
 void Lexer::over_limit(const std::string& what, std::uint64_t limit, const char* name) const
 {
     const Mention here = mention();
-    throw LimitError(here.place + "more than " + std::to_string(limit) + " " + what + " (limit: " + name + ")" +
-                     here.chain);
+    throw LimitError(here.place + "more than " + std::to_string(limit) + " " + what, name, here.chain);
 }
 
 }  // namespace firstray::inline v0

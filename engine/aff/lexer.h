@@ -11,6 +11,9 @@
 
 namespace firstray::inline v0 {
 
+/// Text for a message: unprintable bytes escaped, so that no name can steer a terminal.
+std::string printable(std::string_view text);
+
 /// A piece of a file for a message: in double quotes, unprintable bytes escaped, at most 80 characters of it.
 std::string quote(std::string_view text);
 

@@ -3,6 +3,7 @@
 #include <deque>
 
 #include "engine/aff/statements.h"
+#include "engine/core/fnv.h"
 
 namespace firstray::inline v0 {
 namespace {
@@ -48,6 +49,7 @@ public:
         Scene scene = builder_.finish();
         scene.census.files = folder_.files();
         scene.census.bytes = folder_.bytes();
+        scene.census.digest = digest_;
         return scene;
     }
 
@@ -61,6 +63,7 @@ private:
 
     void open(const SourceFile& file)
     {
+        digest_ = fnv_mixed(digest_, file.digest);
         files_.push_back({Lexer(file, files_.empty() ? nullptr : &files_.back().in), builder_.depth()});
     }
 
@@ -117,9 +120,8 @@ private:
         const SourceFile& file = folder_.open(name, in());
         for (const OpenFile& outer : files_)
             if (&outer.in.file() == &file) in().fault(quote(name) + " includes itself", "includes without a circle");
-        if (files_.size() > static_cast<std::size_t>(limits_.include_depth))
-            in().over_limit("includes inside each other", static_cast<std::uint64_t>(limits_.include_depth),
-                            "include_depth");
+        if (files_.size() > limits_.include_depth)
+            in().over_limit("includes inside each other", limits_.include_depth, "include_depth");
         expanded_bytes_ += file.text.size();
         if (expanded_bytes_ > limits_.expanded_bytes)
             in().over_limit("bytes with every repetition of a file", limits_.expanded_bytes, "expanded_bytes");
@@ -145,6 +147,7 @@ private:
     std::deque<OpenFile> files_;  // stable addresses: a lexer points to the one that includes it
     std::int64_t detail_level_ = 0;
     std::uint64_t expanded_bytes_ = 0;
+    std::uint64_t digest_ = fnv_offset_basis;
 };
 
 }  // namespace

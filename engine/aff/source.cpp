@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "engine/aff/lexer.h"
+#include "engine/core/fnv.h"
 
 namespace firstray::inline v0 {
 namespace {
@@ -14,7 +15,7 @@ namespace fs = std::filesystem;
 
 [[noreturn]] void cannot(const char* act, const fs::path& path, const std::string& reason, const Mention& mention)
 {
-    throw FileError(mention.place + "cannot " + act + " " + path.string() + ": " + reason + mention.chain);
+    throw FileError(mention.place + "cannot " + act + " " + printable(path.string()) + ": " + reason + mention.chain);
 }
 
 /// The path without links and dots, of a regular file: a name must not open a device or wait at a pipe.
@@ -66,18 +67,20 @@ const SourceFile& SceneFolder::read(const fs::path& shown, const fs::path& canon
 {
     if (const auto known = by_path_.find(canonical.string()); known != by_path_.end()) return *known->second;
     if (by_path_.size() >= limits_.files)
-        throw LimitError(mention.place + "more than " + std::to_string(limits_.files) +
-                         " distinct files (limit: files)" + mention.chain);
+        throw LimitError(mention.place + "more than " + std::to_string(limits_.files) + " distinct files", "files",
+                         mention.chain);
     std::ifstream file(canonical, std::ios::binary | std::ios::ate);
     const std::streamoff size = file ? static_cast<std::streamoff>(file.tellg()) : -1;
     if (size < 0) cannot("open", shown, std::strerror(errno), mention);
     if (static_cast<std::uint64_t>(size) > limits_.file_bytes)
-        throw LimitError(mention.place + shown.string() + " has " + std::to_string(size) + " bytes, more than " +
-                         std::to_string(limits_.file_bytes) + " (limit: file_bytes)" + mention.chain);
-    auto source = std::make_unique<SourceFile>(SourceFile{shown.string(), canonical, {}});
+        throw LimitError(mention.place + printable(shown.string()) + " has " + std::to_string(size) +
+                             " bytes, more than " + std::to_string(limits_.file_bytes),
+                         "file_bytes", mention.chain);
+    auto source = std::make_unique<SourceFile>(SourceFile{printable(shown.string()), canonical, {}, 0});
     source->text.resize(static_cast<std::size_t>(size));
     file.seekg(0).read(source->text.data(), size);
     if (!file) cannot("read", shown, std::strerror(errno), mention);
+    source->digest = fnv_mixed(fnv_offset_basis, source->text);
     bytes_ += source->text.size();
     return *(by_path_[canonical.string()] = std::move(source));
 }

@@ -17,6 +17,7 @@ struct SourceFile {
     std::string shown;                ///< the path as it was opened, for messages
     std::filesystem::path canonical;  ///< tells whether two names mean one file
     std::string text;
+    std::uint64_t digest = 0;  ///< of the text
 };
 
 /// What a message about a file says before and after, when a scene file names that file.

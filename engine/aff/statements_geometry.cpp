@@ -20,7 +20,7 @@ std::uint32_t read_texture(Reading& r)
 {
     const std::string name = r.in.word("a texture's file name");
     r.folder.check(name, r.in);
-    return r.builder.texture(name);
+    return r.builder.texture(name, r.in);
 }
 
 void read_polygon_corners(Reading& r, bool with_normals)
@@ -63,9 +63,17 @@ std::size_t read_list_count(Lexer& in, std::vector<Value>& list)
     return count;
 }
 
-void read_points(Lexer& in, std::vector<glm::dvec3>& points)
+template <typename Value>
+std::size_t read_vertex_count(Reading& r, std::vector<Value>& list)
 {
-    for (std::size_t left = read_list_count(in, points); left > 0; --left) points.push_back(in.point());
+    const std::size_t count = read_list_count(r.in, list);
+    r.builder.check_vertices(count, 0, r.in);
+    return count;
+}
+
+void read_points(Reading& r, std::vector<glm::dvec3>& points)
+{
+    for (std::size_t left = read_vertex_count(r, points); left > 0; --left) points.push_back(r.in.point());
 }
 
 glm::uvec3 read_indices(Lexer& in, std::size_t size, const char* what)
@@ -170,12 +178,12 @@ void read_mesh(Reading& r)
 {
     TriangleList list;
     r.in.keyword("vertices");
-    read_points(r.in, list.positions);
+    read_points(r, list.positions);
     const bool with_normals = r.in.accept("normals");
-    if (with_normals) read_points(r.in, list.normals);
+    if (with_normals) read_points(r, list.normals);
     const bool with_uvs = r.in.accept("texturecoords");
     if (with_uvs) {
-        const std::size_t count = read_list_count(r.in, list.uvs);
+        const std::size_t count = read_vertex_count(r, list.uvs);
         list.texture = read_texture(r);
         for (std::size_t i = 0; i < count; ++i) list.uvs.push_back(r.in.vec2());
     }

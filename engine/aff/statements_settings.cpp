@@ -60,6 +60,13 @@ std::vector<VisibilityKey> read_visibility(Reading& r)
     return keys;
 }
 
+int read_resolution(Reading& r)
+{
+    const std::size_t pixels = r.in.count(1, "a number of pixels of at least 1");
+    if (pixels > r.limits.resolution) r.in.over_limit("pixels along an axis", r.limits.resolution, "resolution");
+    return static_cast<int>(pixels);
+}
+
 /// Reads one track if one follows.
 bool read_track(Reading& r, Animation& animation)
 {
@@ -104,9 +111,8 @@ void read_view(Reading& r)
     view.hither = r.in.number();
     if (view.hither < 0.0001) view.hither = 1.0;  // as BART's parser does
     r.in.keyword("resolution");
-    const std::string expected = "a resolution in [1, " + std::to_string(r.limits.resolution) + "]";
-    view.width = static_cast<int>(r.in.integer(1, r.limits.resolution, expected.c_str()));
-    view.height = static_cast<int>(r.in.integer(1, r.limits.resolution, expected.c_str()));
+    view.width = read_resolution(r);
+    view.height = read_resolution(r);
     r.builder.scene.view = view;
 }
 
@@ -130,13 +136,13 @@ void read_times(Reading& r)
 
 void read_light(Reading& r)
 {
-    r.builder.add_light(read_light_body(r), "");
+    r.builder.add_light(read_light_body(r), "", r.in);
 }
 
 void read_named_light(Reading& r)
 {
     const std::string name = r.in.word("the light's name");
-    r.builder.add_light(read_light_body(r), name);
+    r.builder.add_light(read_light_body(r), name, r.in);
 }
 
 /// NFF has no ambient term: its materials are lit by lights alone.

@@ -42,10 +42,21 @@ public:
     explicit FileError(const std::string& message) : Error(Fault::file, message) {}  ///< with what()
 };
 
-/// Something larger than a limit allows; the message names the limit.
+/// Rendering that was told to stop.
+class Cancelled : public Error {
+public:
+    Cancelled() : Error(Fault::rendering, "cancelled") {}
+};
+
+/// Something larger than a limit allows; the message names the limit, so that the user can raise it.
 class LimitError : public Error {
 public:
-    explicit LimitError(const std::string& message) : Error(Fault::limit, message) {}  ///< with what()
+    /// name      of the limit, e.g. "primitives"
+    /// includes  as of SceneError
+    LimitError(const std::string& message, const std::string& name, const std::string& includes = {})
+        : Error(Fault::limit, message + " (limit: " + name + ")" + includes)
+    {
+    }
 };
 
 }  // namespace firstray::inline v0

@@ -51,10 +51,13 @@ public:
         return made;
     }
 
+    /// Whether it was to be made and could not be. Any number of threads.
+    bool is_refused() const { return word_.load(std::memory_order_relaxed) == refused; }
+
     /// Lets a refusal be asked again. Runs alone.
     void forget_refusal()
     {
-        if (word_.load(std::memory_order_relaxed) == refused) word_.store(not_made, std::memory_order_relaxed);
+        if (is_refused()) word_.store(not_made, std::memory_order_relaxed);
     }
 
     /// Takes out what was made, or nothing, and forgets a refusal. Runs alone.

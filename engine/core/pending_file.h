@@ -1,5 +1,6 @@
 #pragma once
 #include <filesystem>
+#include <span>
 #include <string_view>
 
 namespace firstray::inline v0 {
@@ -9,7 +10,7 @@ namespace firstray::inline v0 {
 class PendingFile {
 public:
     /// Makes the target's folders where they are missing.
-    /// throws  FileError when that fails
+    /// throws  FileError when that fails, or where the target is there and is no file: a folder, a device, a pipe
     explicit PendingFile(std::filesystem::path target);
     ~PendingFile();
     PendingFile(const PendingFile&) = delete;
@@ -25,6 +26,9 @@ public:
 private:
     std::filesystem::path target_, temporary_;
 };
+
+/// Removes the temporary files of these targets that were left by processes of this machine which live no more.
+void remove_abandoned(std::span<const std::filesystem::path> targets);
 
 /// Writes `content` to `file`, complete or not at all.
 /// throws  FileError

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <stdexcept>
 
@@ -17,68 +18,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using Attributes = std::span<const std::pair<std::string, std::string>>;
-
-// ---- reading
-
-[[noreturn]] void cannot_read(const fs::path& file, const std::string& reason)
-{
-    throw FileError("cannot read picture " + file.string() + ": " + reason);
-}
-
-/// Files alone: opening a pipe would wait, a device may never end.
-void check_regular(const fs::path& file)
-{
-    std::error_code error;
-    const fs::file_status status = fs::status(file, error);
-    if (status.type() == fs::file_type::not_found) cannot_read(file, "no such file");
-    if (error) cannot_read(file, error.message());
-    if (!fs::is_regular_file(status)) cannot_read(file, "not a regular file");
-}
-
-void check_header(const fs::path& file, const OIIO::ImageSpec& spec, const ImageLimits& limits)
-{
-    const auto size = std::to_string(spec.width) + "x" + std::to_string(spec.height);
-    if (spec.width < 1 || spec.height < 1 || spec.depth > 1 || spec.deep) cannot_read(file, "not a flat picture");
-    if (spec.nchannels < 1 || spec.nchannels > 4)
-        cannot_read(file, std::to_string(spec.nchannels) + " channels, expected 1 to 4");
-    if (spec.width > limits.resolution || spec.height > limits.resolution)
-        throw LimitError("picture " + file.string() + " is " + size + ", the limit is " +
-                         std::to_string(limits.resolution) + " per axis");
-    const auto bytes = static_cast<std::uint64_t>(spec.width) * static_cast<std::uint64_t>(spec.height) *
-                       static_cast<std::uint64_t>(std::max(spec.nchannels, 3));
-    if (bytes > limits.bytes)
-        throw LimitError("picture " + file.string() + " (" + size + ") decodes to " + std::to_string(bytes) +
-                         " bytes, the limit is " + std::to_string(limits.bytes));
-}
-
-/// Grey, grey with alpha or colour with alpha, as colour alone.
-std::vector<std::uint8_t> to_rgb(const std::vector<std::uint8_t>& pixels, std::size_t channels)
-{
-    const std::size_t count = pixels.size() / channels;
-    std::vector<std::uint8_t> rgb(3 * count);
-    for (std::size_t i = 0; i < count; ++i)
-        for (std::size_t c = 0; c < 3; ++c) rgb[3 * i + c] = pixels[channels * i + (channels < 3 ? 0 : c)];
-    return rgb;
-}
-
-/// Whether `file` lies in `folder` or below; both canonical, so links and ".." are already followed.
-bool lies_inside(const fs::path& folder, const fs::path& file)
-{
-    return std::mismatch(folder.begin(), folder.end(), file.begin(), file.end()).first == folder.end();
-}
-
-fs::path texture_file(const Scene& scene, const std::string& name, const ImageLimits& limits)
-{
-    const fs::path folder = scene.folder.empty() ? fs::path(".") : fs::path(scene.folder);
-    const fs::path file = folder / name;
-    check_regular(file);
-    std::error_code error;
-    if (!limits.allow_outside && !lies_inside(fs::canonical(folder, error), fs::canonical(file, error)))
-        cannot_read(file, "it lies outside the scene's folder, which was not allowed");
-    return file;
-}
-
-// ---- writing
 
 [[noreturn]] void cannot_write(const fs::path& file, const std::string& reason)
 {
@@ -208,45 +147,34 @@ void check_picture(const Frame& frame)
 
 }  // namespace
 
-Texture read_texture(const fs::path& file, const ImageLimits& limits)
-{
-    check_regular(file);
-    OIIO::ImageSpec wishes;
-    wishes.attribute("oiio:UnassociatedAlpha", 1);  // else colour comes multiplied by the alpha that is dropped here
-    const auto in = OIIO::ImageInput::open(file.string(), &wishes);
-    if (!in) cannot_read(file, OIIO::geterror());
-    const OIIO::ImageSpec& spec = in->spec();
-    check_header(file, spec, limits);
-
-    Texture texture{spec.width, spec.height, {}};
-    const auto channels = static_cast<std::size_t>(spec.nchannels);
-    texture.pixels.resize(static_cast<std::size_t>(spec.width) * static_cast<std::size_t>(spec.height) * channels);
-    if (!in->read_image(0, 0, 0, spec.nchannels, OIIO::TypeUInt8, texture.pixels.data()))
-        cannot_read(file, in->geterror());
-    if (channels != 3) texture.pixels = to_rgb(texture.pixels, channels);
-    return texture;
-}
-
-std::vector<Texture> read_textures(const Scene& scene, const ImageLimits& limits)
-{
-    std::vector<Texture> textures;
-    textures.reserve(scene.textures.size());
-    for (const std::string& name : scene.textures)
-        textures.push_back(read_texture(texture_file(scene, name, limits), limits));
-    return textures;
-}
-
 std::string png_of(const Frame& frame)
 {
     check_picture(frame);
     return encode_png("in memory.png", frame, {});
 }
 
+bool is_whole_frame(const fs::path& file, Attributes attributes)
+{
+    std::error_code error;
+    if (!fs::is_regular_file(file, error)) return false;
+    const auto in = OIIO::ImageInput::open(file.string());
+    if (!in) {
+        OIIO::geterror();  // else it would be told of later, and elsewhere
+        return false;
+    }
+    const OIIO::ImageSpec spec = in->spec();
+    for (const auto& [name, value] : attributes)
+        if (spec.get_string_attribute(name) != value) return false;
+    std::vector<std::byte> pixels(spec.image_bytes(true));
+    return in->read_image(0, 0, 0, spec.nchannels, OIIO::TypeUnknown, pixels.data());
+}
+
 void write_frame(const fs::path& file, const Frame& frame, std::span<const Aov> aovs, Attributes attributes)
 {
     check_picture(frame);
     if (file.extension() == ".exr") {
-        const Packed packed = pack_exr(frame, aovs);
+        Packed packed = pack_exr(frame, aovs);
+        packed.spec.attribute("DateTime", "1970:01:01 00:00:00");  // else it is now: no two runs would be the same
         // An unknown format says that each channel comes in its own.
         write_whole_file(file,
                          encode(file, "openexr", packed.spec, attributes, OIIO::TypeUnknown, packed.words.data()));

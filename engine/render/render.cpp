@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "engine/core/errors.h"
 #include "engine/render/camera_rays.h"
 #include "engine/render/ray_tree.h"
 
@@ -25,6 +26,11 @@ void check(const Pose& pose, std::span<const Texture> textures, const RenderOpti
     if (textures.size() != pose.scene->textures.size())
         throw std::invalid_argument("the scene has " + std::to_string(pose.scene->textures.size()) + " textures, not " +
                                     std::to_string(textures.size()));
+}
+
+void check_cancelled(const RenderOptions& options)
+{
+    if (options.cancelled && options.cancelled()) throw Cancelled();
 }
 
 void resize(Frame& frame, const RenderOptions& options)
@@ -215,6 +221,7 @@ RayCounts render(const Strategy<Real>& strategy, const Pose& pose, std::span<con
     FrameRenderer<Real> renderer(strategy, pose, textures, options, frame);
     const glm::ivec2 tiles = tile_counts(options.width, options.height);
     executor.for_each(static_cast<std::size_t>(tiles.x) * static_cast<std::size_t>(tiles.y), [&](std::size_t tile) {
+        check_cancelled(options);
         const auto columns = static_cast<std::size_t>(tiles.x);
         renderer.render_tile({static_cast<int>(tile % columns), static_cast<int>(tile / columns)});
     });
@@ -231,6 +238,7 @@ RayCounts render_pixels(const Strategy<Real>& strategy, const Pose& pose, std::s
     for (std::uint32_t& age : frame.age) ++age;
     FrameRenderer<Real> renderer(strategy, pose, textures, options, frame);
     executor.for_pieces(pixels.size(), lot_size, [&](std::size_t begin, std::size_t end) {
+        check_cancelled(options);
         renderer.render_pixels(pixels.subspan(begin, end - begin));
     });
     return renderer.counts();

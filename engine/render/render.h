@@ -20,6 +20,7 @@ struct RenderOptions {
     int depth = 4;                  ///< rays in a row after the primary one, >= 0; 0 shades primary hits only
     int samples = 1;                ///< per pixel, >= 1; 1 is the pixel's centre
     bool costs = false;             ///< also fill the cells, tests and time layers (slower)
+    bool (*cancelled)() = nullptr;  ///< asked before every tile, on any thread: true ends rendering with Cancelled
 };
 
 /// How many rays were traced, by kind.
@@ -34,7 +35,7 @@ struct RayCounts {
 /// textures  by Scene::textures
 /// frame     resized; every layer that the options ask for is filled
 /// throws    std::invalid_argument for options out of range or textures that are not as many as the scene's;
-///           what the strategy throws
+///           what the strategy throws; Cancelled. The frame is then of no use
 template <typename Real>
 RayCounts render(const Strategy<Real>& strategy, const Pose& pose, std::span<const Texture> textures,
                  const RenderOptions& options, const Executor& executor, Frame& frame);

@@ -122,6 +122,7 @@ struct Census {
     std::vector<std::pair<std::string, std::uint64_t>> statements;  ///< e.g. {"fm", 1849}, in order of first use
     std::uint64_t files = 0;                                        ///< distinct files read
     std::uint64_t bytes = 0;                                        ///< of those
+    std::uint64_t digest = 0;  ///< of the text that was read, includes as often as they are executed
     std::uint64_t count(std::string_view statement) const;          ///< 0 where it was not met
 };
 
@@ -142,6 +143,7 @@ struct Scene {
     std::vector<Animation> animations;  ///< one per name
     std::vector<Material> materials;    ///< distinct
     std::vector<std::string> textures;  ///< distinct file names as written
+    std::vector<std::string> texture_places;  ///< where each is named first, "file:line:column: "; or empty
     std::vector<Group> groups;          ///< group 0 is the static scenery (perhaps empty); others are never empty
     std::vector<Part> parts;            ///< ordered by `first`; together they cover all primitives
 

@@ -33,7 +33,7 @@ struct StructureReport {
     std::uint64_t built_voxels = 0;    ///< lazy: of the filled ones of top grids, those that a ray has had built by now
     std::uint64_t kept_voxels = 0;     ///< lazy: of those, built in earlier frames
     std::uint64_t dropped_voxels = 0;  ///< lazy: given up by the last update, because what is in them moved
-    std::uint64_t refused_builds = 0;  ///< lazy: for want of budget or memory, since update
+    std::uint64_t refused_builds = 0;  ///< lazy: for want of budget or memory, since update; obb: boxes without a grid for that
     std::uint64_t references = 0;      ///< listings of primitives in voxels
     std::uint64_t primitives = 0;      ///< visible ones, each once
     std::uint64_t bytes = 0;           ///< held now, vertices in the root system included

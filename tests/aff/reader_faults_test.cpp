@@ -26,112 +26,7 @@ std::string fault_of(const TempFolder& folder, const std::string& main, const Re
     }
 }
 
-struct Row {
-    const char* text;
-    const char* message;
-};
-
-constexpr const char* view = "v from 0 0 0 at 0 0 1 up 0 1 0 angle 45 hither 1 resolution 4 4";
-
 }  // namespace
-
-TEST_CASE("what is wrong in a file is named with its place and with what was expected")
-{
-    const Row rows[] = {
-        {"q", "main.aff:1:1: \"q\", expected a statement"},
-        {"\n\n  7", "main.aff:3:3: \"7\", expected a statement"},
-        {"fmx 1", "main.aff:1:1: \"fmx\", expected a statement"},
-        {"{", "main.aff:1:1: \"{\", expected a statement"},
-        {"b 1 1 1 }", "main.aff:1:9: \"}\", expected a statement (no transform is open in this file)"},
-        {"f m 1", "main.aff:1:3: \"m\", expected a number"},
-        {"x s 1 1", "main.aff:1:5: \"1\", expected \"{\""},
-        {"b 1 1", "main.aff:1:6: end of file, expected a number"},
-        {"b 1 1 x", "main.aff:1:7: \"x\", expected a number"},
-        {"b 1 1 1x", "main.aff:1:7: \"1x\", expected a number"},
-        {"b nan 1 1", "main.aff:1:3: \"nan\", expected a number"},
-        {"b -inf 1 1", "main.aff:1:3: \"-inf\", expected a number"},
-        {"b 0x10 1 1", "main.aff:1:3: \"0x10\", expected a number"},
-        {"b +-1 1 1", "main.aff:1:3: \"+-1\", expected a number"},
-        {"b 1e39 1 1", "main.aff:1:3: \"1e39\", expected a number in the range of float"},
-        {"b 1e999 1 1", "main.aff:1:3: \"1e999\", expected a number in the range of float"},
-        {"b a\"\x01\xe9\\ 1", "main.aff:1:3: \"a\\\"\\x01\\xe9\\\\\", expected a number"},
-        {"b # 1 1 1\r\n\t1 1 z", "main.aff:2:6: \"z\", expected a number"},
-        {"l 1 2 3 4", "main.aff:1:10: end of file, expected a number"},
-        {"x a { l 1 2 3 }",
-         "main.aff:1:7: light inside an animated transform, expected lights outside (\"la\" and \"k\" move a light)"},
-        {"la", "main.aff:1:3: end of file, expected the light's name"},
-        {"fm 1 1 1 1 1 1 1 1 1 -1 0 0", "main.aff:1:22: \"-1\", expected an exponent of at least 0"},
-        {"fm 1 1 1 1 1 1 1 1 1 1 1.5 0", "main.aff:1:24: \"1.5\", expected a transmittance in [0, 1]"},
-        {"f 1 1 1 1 1 1 1 -2", "main.aff:1:17: \"-2\", expected an index of refraction of at least 0"},
-        {"a 0 1 0", "main.aff:1:7: \"0\", expected a number of frames of at least 1"},
-        {"a 0 1 2.5", "main.aff:1:7: \"2.5\", expected a number of frames of at least 1"},
-        {"v from 0 0 0 up 0 1 0", "main.aff:1:14: \"up\", expected \"at\""},
-        {"v from 1 0 0 at 1 0 0", "main.aff:1:1: view \"at\" the point it is \"from\", expected two different points"},
-        {"v from 0 0 0 at 0 0 1 up 0 0 0",
-         "main.aff:1:1: view whose \"up\" is zero or along its direction, expected a vector across it"},
-        {"v from 0 0 0 at 0 0 1 up 0 0 -3",
-         "main.aff:1:1: view whose \"up\" is zero or along its direction, expected a vector across it"},
-        {"v from 0 0 0 at 0 0 1 up 0 1 0 angle 180", "main.aff:1:38: \"180\", expected an angle in (0, 180) degrees"},
-        {"v from 0 0 0 at 0 0 1 up 0 1 0 angle 0", "main.aff:1:38: \"0\", expected an angle in (0, 180) degrees"},
-        {"v from 0 0 0 at 0 0 1 up 0 1 0 angle 45 hither 1 resolution 0 4",
-         "main.aff:1:61: \"0\", expected a resolution in [1, 16384]"},
-        {"v from 0 0 0 at 0 0 1 up 0 1 0 angle 45 hither 1 resolution 4 16385",
-         "main.aff:1:63: \"16385\", expected a resolution in [1, 16384]"},
-        {"c 0 0 0 1 0 0 0 1", "main.aff:1:1: cone whose ends are one point, expected two different points"},
-        {"c 0 0 0 0 1 0 0 0", "main.aff:1:1: cone with two radii of 0, expected a radius other than 0"},
-        {"c 0 0 0 1 1 0 0 -1", "main.aff:1:1: cone with radii of different sign, expected radii of the same sign"},
-        {"c 0 0 0 -1 1 0 0 1", "main.aff:1:1: cone with radii of different sign, expected radii of the same sign"},
-        {"s 0 0 0 0", "main.aff:1:9: \"0\", expected a radius other than 0"},
-        {"p 2 0 0 0 1 1 1", "main.aff:1:3: \"2\", expected a number of corners of at least 3"},
-        {"m normals 3", "main.aff:1:3: \"normals\", expected \"vertices\""},
-        {"m vertices -1", "main.aff:1:12: \"-1\", expected a count of at least 0"},
-        {"m vertices 99999999999999999999", "main.aff:1:12: \"99999999999999999999\", expected a count of at least 0"},
-        {"m vertices 9223372036854775807 1 2 3", "main.aff:1:37: end of file, expected a number"},
-        {"m vertices 1 1 2 3 triangles 1000000000", "main.aff:1:40: end of file, expected an index"},
-        {"m vertices 1 1 2 3 triangles 1\n0 0 1",
-         "main.aff:2:5: triangle names vertex 1 of 1, expected an index in [0, 1)"},
-        {"m vertices 1 1 2 3 triangles 1 -1 0 0",
-         "main.aff:1:32: triangle names vertex -1 of 1, expected an index in [0, 1)"},
-        {"m vertices 1 1 2 3 triangles 1 0 0 0.5", "main.aff:1:36: \"0.5\", expected an index"},
-        {"m vertices 1 1 2 3 normals 0 triangles 1 0 0 0 4294967296",
-         "main.aff:1:48: triangle names normal 4294967296 of 0, expected an index in [0, 0)"},
-        {"m vertices 1 1 2 3 texturecoords 1 t.ppm 0 0 triangles 1 0 0 0 0 2 0",
-         "main.aff:1:66: triangle names texture coordinate 2 of 1, expected an index in [0, 1)"},
-        {"tpa 0", "main.aff:1:5: \"0\", expected a number of keys of at least 1"},
-        {"tpa 2 1 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0.5",
-         "main.aff:1:45: \"0.5\", expected a time not before the last key's"},
-        {"xs 1 0 1 0 0 0 0 0 0 0 { }", "main.aff:1:1: scale factor 0, expected three factors other than 0"},
-        {"xs 1 1 1 0 0 0 5 0 0 0 { }", "main.aff:1:1: rotation about the axis 0 0 0, expected an axis other than zero"},
-        {"xs 1e30 1 1 1 0 0 0 0 0 0 { xs 1e30 1 1 1 0 0 0 0 0 0 { } }",
-         "main.aff:1:29: transform that, with those around it, leaves the range of float, expected a smaller one"},
-        {"xs 1e30 1 1 1 0 0 0 0 0 0 { p 3 1e30 0 0 0 0 0 0 1 0 }",
-         "main.aff:1:29: point that its transforms carry out of the range of float, expected a nearer one"},
-        {"xs 1e-30 1 1 1 0 0 0 0 0 0 { s 0 0 0 1 }",
-         "main.aff:1:30: sphere, cone or cylinder that is flat, a line or a point, expected one with a volume"},
-        {"xs 1 1 1 0 0 0 0 0 0 0 b", "main.aff:1:24: \"b\", expected \"{\""},
-        {"x { }", "main.aff:1:3: \"{\", expected the transform's name"},
-        {"x a { x b { }", "main.aff:1:14: end of file, expected \"}\" (1 open)"},
-        {"x a { v", "main.aff:1:7: view inside a transform, expected \"v\" outside of all braces"},
-        {"k a { transl 3", "main.aff:1:14: \"3\", expected a number of keys of at least 4"},
-        {"k a { visibility 1 0 2 }", "main.aff:1:22: \"2\", expected 0 or 1"},
-        {"k a { visibility 1 0 1 visibility 1 0 1 }",
-         "main.aff:1:24: \"visibility\", expected a kind of track that this block does not have yet"},
-        {"k a { turn 4", "main.aff:1:7: \"turn\", expected \"transl\", \"rot\", \"scale\", \"visibility\" or \"}\""},
-        {"k a transl", "main.aff:1:5: \"transl\", expected \"{\""},
-        {"i zero a.aff", "main.aff:1:3: \"zero\", expected a level of detail"},
-        {"i 0 }", "main.aff:1:5: \"}\", expected a file name"},
-        {"i 0 main.aff", "main.aff:1:5: \"main.aff\" includes itself, expected includes without a circle"},
-    };
-    const TempFolder folder;
-    folder.write("t.ppm", "P6 1 1 255\nabc");
-    for (const Row& row : rows) {
-        CAPTURE(row.text);
-        Fault kind{};
-        CHECK(fault_of(folder, row.text, {}, &kind) == row.message);
-        CHECK(kind == Fault::scene);
-    }
-    CHECK(fault_of(folder, view) == "");
-}
 
 TEST_CASE("a fault in an included file tells how it came there")
 {
@@ -178,21 +73,86 @@ TEST_CASE("files that cannot be used are named with the place that wants them")
     CHECK_THROWS_AS(read_aff("/dev/zero"), FileError);
 }
 
-TEST_CASE("textures and includes outside the scene's folder are refused")
+namespace {
+
+enum class Path { is_read, is_outside, is_no_file };
+
+struct PathRow {
+    std::string name;  ///< as a scene file gives it
+    Path by_default, if_allowed;
+};
+
+/// What becomes of a name that a scene file includes, or gives for a texture.
+Path outcome_of(const TempFolder& outer, const std::string& statement, bool allow_outside)
 {
+    ReadLimits limits;
+    limits.allow_outside = allow_outside;
+    try {
+        read_aff(outer.write("scene/main.aff", statement), limits);
+        return Path::is_read;
+    } catch (const SceneError& error) {
+        CHECK(std::string(error.what()).find("lies outside the scene's folder, expected a file inside it") !=
+              std::string::npos);
+        return Path::is_outside;
+    } catch (const FileError& error) {
+        CHECK(std::string(error.what()).find("main.aff:1:") != std::string::npos);
+        return Path::is_no_file;
+    }
+}
+
+}  // namespace
+
+TEST_CASE("includes and textures lie in the scene's folder, whatever their names; devices and pipes are never opened")
+{
+    namespace fs = std::filesystem;
     const TempFolder outer;
-    outer.write("t.ppm", "");
-    outer.write("scenery/a.aff", "");
-    std::filesystem::create_directory(outer.path() / "scene");
-    for (const char* statement : {"i 0 ../t.ppm", "tt ../t.ppm", "i 0 /etc/passwd", "i 0 ../scenery/a.aff"}) {
-        CAPTURE(statement);
-        try {
-            read_aff(outer.write("scene/main.aff", statement));
-            FAIL("was read");
-        } catch (const SceneError& error) {
-            const std::string message = error.what();
-            CHECK(message.find("lies outside the scene's folder, expected a file inside it") != std::string::npos);
-        }
+    const std::string root = outer.path().string();
+    for (const char* name : {"scene/a.aff", "scene/sub/b.aff", "scene-of-others/c.aff", "d.aff"}) outer.write(name, "");
+    const auto link = [&](const char* to, const char* name) { fs::create_symlink(to, outer.path() / "scene" / name); };
+    link("a.aff", "to-inside");
+    link("../d.aff", "to-outside");
+    link("to-outside", "to-link-to-outside");
+    link("..", "up");
+    link("nowhere", "dangling");
+    link("loop", "loop");
+    link("/dev/zero", "to-device");
+    REQUIRE(mkfifo((outer.path() / "scene/pipe").c_str(), 0600) == 0);
+    REQUIRE(mkfifo((outer.path() / "pipe").c_str(), 0600) == 0);
+    const PathRow rows[] = {
+        {"a.aff", Path::is_read, Path::is_read},
+        {"./sub/../a.aff", Path::is_read, Path::is_read},
+        {"sub/b.aff", Path::is_read, Path::is_read},
+        {"../scene/a.aff", Path::is_read, Path::is_read},
+        {root + "/scene/a.aff", Path::is_read, Path::is_read},
+        {"to-inside", Path::is_read, Path::is_read},
+        {"up/scene/a.aff", Path::is_read, Path::is_read},
+        {"../d.aff", Path::is_outside, Path::is_read},
+        {"sub/../../d.aff", Path::is_outside, Path::is_read},
+        {"../scene-of-others/c.aff", Path::is_outside, Path::is_read},
+        {root + "/d.aff", Path::is_outside, Path::is_read},
+        {"to-outside", Path::is_outside, Path::is_read},
+        {"to-link-to-outside", Path::is_outside, Path::is_read},
+        {"up/d.aff", Path::is_outside, Path::is_read},
+        {"sub", Path::is_no_file, Path::is_no_file},
+        {"up", Path::is_no_file, Path::is_no_file},
+        {"..", Path::is_no_file, Path::is_no_file},
+        {"dangling", Path::is_no_file, Path::is_no_file},
+        {"loop", Path::is_no_file, Path::is_no_file},
+        {"pipe", Path::is_no_file, Path::is_no_file},
+        {"../pipe", Path::is_no_file, Path::is_no_file},
+        {"to-device", Path::is_no_file, Path::is_no_file},
+        {"/dev/zero", Path::is_no_file, Path::is_no_file},
+        {"/dev/stdin/x", Path::is_no_file, Path::is_no_file},
+        {"http://localhost/a.aff", Path::is_no_file, Path::is_no_file},
+        {"file:///etc/passwd", Path::is_no_file, Path::is_no_file},
+    };
+    for (const PathRow& row : rows) {
+        CAPTURE(row.name);
+        const std::string texture = "tt " + row.name + " 0 0 0 0 0  1 0 0 0 0  0 1 0 0 0";
+        CHECK(outcome_of(outer, "i 0 " + row.name, false) == row.by_default);
+        CHECK(outcome_of(outer, texture, false) == row.by_default);
+        CHECK(outcome_of(outer, "i 0 " + row.name, true) == row.if_allowed);
+        CHECK(outcome_of(outer, texture, true) == row.if_allowed);
     }
 }
 

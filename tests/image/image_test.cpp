@@ -237,8 +237,12 @@ TEST_CASE("a header that promises too much is refused before its pixels are read
     const test::TempFolder folder;
     const auto wide = folder.write("wide.ppm", "P6\n99999 2\n255\n");
     const auto large = folder.write("large.ppm", "P6\n16000 16000\n255\n");
-    CHECK_THROWS_WITH_AS(read_texture(wide), doctest::Contains("99999x2, the limit is 16384 per axis"), LimitError);
-    CHECK_THROWS_WITH_AS(read_texture(large, {.bytes = 1'000'000}), doctest::Contains("the limit is 1000000"),
+    CHECK_THROWS_WITH_AS(read_texture(wide), doctest::Contains("is 99999x2 pixels, more than 16384 (limit: texture_resolution)"), LimitError);
+    CHECK_THROWS_WITH_AS(read_texture(large, {.bytes = 1'000'000}), doctest::Contains("(16000x16000 pixels) brings textures to 768000000 bytes, more than 1000000 "
+                                           "(limit: texture_bytes)"),
+                         LimitError);
+    CHECK_THROWS_WITH_AS(read_texture(large),
+                         doctest::Contains("claims 16000x16000 pixels in 19 bytes, 40421052 for each, more than 2048"),
                          LimitError);
 }
 

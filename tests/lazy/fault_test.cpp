@@ -20,7 +20,7 @@ int differing(const RayTile<float>& a, const RayTile<float>& b)
 
 }  // namespace
 
-TEST_CASE("lazy: whichever allocation fails while rays fly, they find what they find" * doctest::skip(!new_can_fail))
+TEST_CASE("lazy: whichever allocation fails while rays fly, they find what they find")
 {
     const Scene scene = scene_with_movers(3, 150, 3, 30);
     const Pose now = pose(scene, 0.0);

@@ -1,73 +1,73 @@
 #include "tests/support/failing_new.h"
 
-#include <cstddef>
-#include <cstdlib>
-#include <new>
+#include <dlfcn.h>
+#include <execinfo.h>
 
+#include <array>
+#include <atomic>
+#include <cstring>
+
+#include "bench/firstray/counted_new.h"
+
+namespace firstray::test {
 namespace {
 
-constexpr std::int64_t not_armed = -1, failed = -2;
-thread_local std::int64_t allocations_left = not_armed;
+std::atomic<std::int64_t> allocations_left{0};
+std::atomic<bool> spared{false};
+thread_local bool is_watched = false;
 
-bool fails_now()
+bool is_called_by_oiio()
 {
-    if (allocations_left < 0) return false;
-    if (allocations_left-- > 0) return false;
-    allocations_left = failed;
-    return true;
+    std::array<void*, 64> frames;
+    const int count = backtrace(frames.data(), static_cast<int>(frames.size()));
+    for (int i = 0; i < count; ++i) {
+        Dl_info info{};
+        if (dladdr(frames[static_cast<std::size_t>(i)], &info) != 0 && info.dli_fname != nullptr &&
+            std::strstr(info.dli_fname, "libOpenImageIO") != nullptr)
+            return true;
+    }
+    return false;
 }
 
-[[maybe_unused]] void* allocate(std::size_t size, std::size_t boundary)
+/// Whether this is the allocation that the count reaches 0 at; it goes on below, where none fails any more.
+bool is_the_one()
 {
-    if (fails_now()) throw std::bad_alloc();
-    const std::size_t whole = (size + boundary - 1) / boundary * boundary;  // as aligned_alloc wants it
-    if (void* const memory = std::aligned_alloc(boundary, whole == 0 ? boundary : whole)) return memory;
-    throw std::bad_alloc();
+    if (allocations_left.fetch_sub(1, std::memory_order_relaxed) != 0) return false;
+    spared = is_called_by_oiio();
+    return !spared;
+}
+
+bool is_the_one_here()
+{
+    return is_watched && is_the_one();
 }
 
 }  // namespace
 
-#ifndef FIRSTRAY_NEW_CANNOT_FAIL
-void* operator new(std::size_t size)
+FailingNew::FailingNew(std::int64_t number, Allocations whose)
 {
-    return allocate(size, alignof(std::max_align_t));
-}
-void* operator new(std::size_t size, std::align_val_t boundary)
-{
-    return allocate(size, static_cast<std::size_t>(boundary));
-}
-void operator delete(void* memory) noexcept
-{
-    std::free(memory);
-}
-void operator delete(void* memory, std::size_t) noexcept
-{
-    std::free(memory);
-}
-void operator delete(void* memory, std::align_val_t) noexcept
-{
-    std::free(memory);
-}
-void operator delete(void* memory, std::size_t, std::align_val_t) noexcept
-{
-    std::free(memory);
-}
-
-#endif
-
-namespace firstray::test {
-
-FailingNew::FailingNew(std::int64_t number)
-{
+    std::array<void*, 1> first;
+    backtrace(first.data(), 1);  // the first call of all allocates
     allocations_left = number;
+    spared = false;
+    is_watched = true;
+    command::fails_allocation = whose == Allocations::of_this_thread ? &is_the_one_here : &is_the_one;
 }
+
 FailingNew::~FailingNew()
 {
-    allocations_left = not_armed;
+    command::fails_allocation = nullptr;
+    is_watched = false;
 }
+
+bool FailingNew::was_spared() const
+{
+    return spared;
+}
+
 bool FailingNew::has_failed() const
 {
-    return allocations_left == failed;
+    return allocations_left < 0;
 }
 
 }  // namespace firstray::test
