@@ -12,7 +12,7 @@
 #include "engine/core/errors.h"
 #include "engine/image/image.h"
 
-namespace firstray::image {
+namespace firstray::inline v0::image {
 namespace {
 
 namespace fs = std::filesystem;
@@ -203,4 +203,4 @@ std::vector<Texture> read_textures(const Scene& scene, const ImageLimits& limits
     return textures;
 }
 
-}  // namespace firstray::image
+}  // namespace firstray::inline v0::image

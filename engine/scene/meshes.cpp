@@ -77,8 +77,8 @@ std::uint32_t Meshes::add(const Mesh& mesh, std::uint32_t group)
     draft.material = mesh.material;
     if (range.first <= range.last) draft.lent = mesh.positions.subspan(range.first, range.last - range.first + 1);
     if (vertices_ + draft.lent.size() >= most || triangles_ + mesh.indices.size() >= most)
-        throw LimitError(text("mesh", number) + ": more than " + std::to_string(most) +
-                         " vertices or triangles in all");
+        throw LimitError(text("mesh", number) + ": more than " + std::to_string(most) + " in all",
+                         vertices_ + draft.lent.size() >= most ? "vertices" : "triangles");
     vertices_ += draft.lent.size();
     triangles_ += mesh.indices.size();
     if (mesh.vertices == Vertices::copied) draft.copy.assign(draft.lent.begin(), draft.lent.end());

@@ -20,7 +20,7 @@ public:
     }
     void update(const Pose& pose) override
     {
-        if (fault_ == Fault::throws_on_update && ++updates_ == 2) throw LimitError("the second update is too much");
+        if (fault_ == Fault::throws_on_update && ++updates_ == 2) throw Error(firstray::Fault::limit, "the second update is too much");
         list_->update(pose);
     }
     void closest(RayTile<Real>& rays) const override
@@ -49,7 +49,7 @@ std::unique_ptr<Strategy<float>> make_broken(const Scene& scene, const StrategyO
 
 inline std::unique_ptr<Strategy<float>> refuse_to_be_made(const Scene&, const StrategyOptions&)
 {
-    throw LimitError("cannot be made");
+    throw Error(firstray::Fault::limit, "cannot be made");
 }
 
 using BrokenFault = BrokenStrategy<float>::Fault;
