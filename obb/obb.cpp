@@ -125,6 +125,7 @@ void ObbStrategy<Real>::move_box(std::uint32_t number, const Pose& pose)
                        &plan,
                        nullptr,
                        own_.hits == Hits::root || group.deforming,
+                       place.largest <= farthest_place,
                        plan.group,
                        place.loose,
                        place.local_from_root};

@@ -44,6 +44,7 @@ struct BoxPrimitives {
     TriangleHit<Real> alone(PrimitiveId id, Real t_last) const
     {
         const RootTriangle<Real> tested = in_root ? target.geometry->triangle_of(group, id) : local_of(id);
+        if (!is_in_range(tested.v)) return {};
         return intersect_precisely(tested, ray, target.precision, t_last);
     }
 
@@ -62,7 +63,7 @@ private:
         const glm::uvec3& vertex = target.scene->triangles[id - g.first + g.first_triangle].vertex;
         RootTriangle<Real> t;
         for (int k = 0; k < 3; ++k)
-            t.v[k] = typename RootTriangle<Real>::Vec(box.local_from_node.point(target.scene->positions[vertex[k]]));
+            t.v[k] = typename RootTriangle<Real>::Vec(box.local_from_node.point(target.scene->position(vertex[k])));
         t.edge = longest_edge<Real>(t.v[0], t.v[1], t.v[2]);
         return t;
     }
@@ -94,7 +95,7 @@ struct World {
     {
         const GridStructure* inside = placed.box->enter();
         const BoxPrimitives<Real> primitives{target, *placed.box, placed.group, placed.in_root, ray};
-        if (HWY_UNLIKELY(!inside) || largest_component<double>(o) > far_away * static_cast<double>(inside->pad))
+        if (HWY_UNLIKELY(!inside || !placed.in_range) || largest_component<double>(o) > far_away * static_cast<double>(inside->pad))
             return one_by_one(quest, *placed.plan, primitives);
         Search<Quest, BoxPrimitives<Real>> search{quest, primitives, inside};
         return search.begin(o, d, target.precision == Precision::fast ? loose : 0.0f) &&
@@ -134,7 +135,7 @@ struct BeamWorld {
     HWY_NOINLINE void enter_beam(std::uint32_t number, BeamQuest& quest, PacketMask packets) const
     {
         const Placed& placed = (*target.placed)[number];
-        const GridStructure* inside = placed.in_root ? placed.box->enter() : nullptr;
+        const GridStructure* inside = placed.in_root && placed.in_range ? placed.box->enter() : nullptr;
         PacketMask alone = packets;
         if (HWY_LIKELY(inside)) {
             Beam local;

@@ -96,7 +96,9 @@ private:
 void dispatch(std::span<const std::string> arguments, Streams streams, Memory& limits)
 {
     Jobs jobs;
-    const bool all = std::find(arguments.begin(), arguments.end(), "--help-all") != arguments.end();
+    // CLI11 does not even name, in its messages, what help hides.
+    const bool all = std::none_of(arguments.begin(), arguments.end(),
+                                  [](const std::string& word) { return word == "--help" || word == "-h"; });
     const std::unique_ptr<CLI::App> line = make_command_line(jobs, all);
     CLI::App& app = *line;
     try {

@@ -9,6 +9,15 @@ namespace firstray::inline v0 {
 /// there. So float's products of two lengths stay finite, and double's of as many as are needed.
 inline constexpr double farthest_place = 1e18;
 
+template <typename Vec>
+bool is_in_range(const Vec (&corners)[3])
+{
+    for (const Vec& corner : corners)
+        for (int axis = 0; axis < 3; ++axis)
+            if (!(std::abs(static_cast<double>(corner[axis])) <= farthest_place)) return false;
+    return true;
+}
+
 /// One ray of a tile as searches want it: known to be in range, and with a direction whose largest component is not
 /// extreme. Directions outside [2^-32, 2^32) are scaled by a power of two, which changes t exactly and nothing else, so
 /// that products of three lengths stay in range.

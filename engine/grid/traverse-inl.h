@@ -79,7 +79,7 @@ HWY_INLINE bool traverse(const Grid& grid, const WalkRay& ray, float t_begin, fl
             if (search.visit(resolve.voxel(word, index), t, t_next, resolve)) return true;
             t_last = std::min(t_leave, search.t_stop());
         }
-        if (t_next >= t_last) return false;
+        if (!(t_next < t_last)) return false;  // not a number: where products overflow, the walk must end too
         const auto crossed = hn::Le(next, nearest);
         index += moves[bits_of(d, crossed) & 7];
         next = hn::IfThenElse(crossed, after, next);

@@ -9,14 +9,6 @@
 namespace firstray::inline v0 {
 namespace {
 
-bool is_in_range(const auto& triangle)
-{
-    for (const auto& corner : triangle.v)
-        for (int axis = 0; axis < 3; ++axis)
-            if (!(std::abs(static_cast<double>(corner[axis])) <= farthest_place)) return false;
-    return true;
-}
-
 /// What is in a group, hidden or not, or listed one by one, because some of it cannot be hit.
 enum Listed : std::uint8_t { not_at_all, wholly, one_by_one };
 
@@ -160,7 +152,7 @@ void RootGeometry<Real>::list(std::uint32_t index, PrimitiveList& list) const
         std::iota(list.triangles.begin() + static_cast<std::ptrdiff_t>(before), list.triangles.end(), group.first);
     } else {
         for (PrimitiveId id = group.first; id < quadrics; ++id)
-            if (is_in_range(triangle(id))) list.triangles.push_back(id);
+            if (is_in_range(triangle(id).v)) list.triangles.push_back(id);
     }
     for (PrimitiveId id = quadrics; id < group.first + group.primitives(); ++id) list.quadrics.push_back(id);
 }

@@ -34,7 +34,7 @@ TEST_CASE("a command line that cannot be taken is told in one line and exits wit
 {
     const std::pair<std::string, std::string> cases[] = {
         {"rendr a.aff", "did you mean render?"},
-        {"render", "SCENE"},
+        {"render", "render needs a scene, e.g.: firstray render scenes/everything.aff"},
         {"render a.aff --strateg grid", "unknown option --strateg; did you mean --strategy?"},
         {"render a.aff b.aff", "'b.aff' was not expected"},
         {"render a.aff --strategy gird", "did you mean grid?"},
