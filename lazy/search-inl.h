@@ -146,7 +146,9 @@ struct GroupPrimitives {
 
     TriangleHit<Real> alone(PrimitiveId id, Real t_last) const
     {
-        return intersect_precisely(geometry.triangle_alone(group, id), ray, precision, t_last);
+        const RootTriangle<Real> tested = geometry.triangle_alone(group, id);
+        if (!is_in_range(tested.v)) return {};  // no structure lists it
+        return intersect_precisely(tested, ray, precision, t_last);
     }
     Real quadric(PrimitiveId id, RayMask mask) const
     {
@@ -213,8 +215,9 @@ struct BeamWorld {
                 search.quadric(target.geometry->quadric_alone(group, id), packets);
                 continue;
             }
-            pack.add(target.geometry->triangle_alone(group, id),
-                     id | (target.geometry->transmits(id) ? transmitting_bit : 0));
+            const RootTriangle<float> triangle = target.geometry->triangle_alone(group, id);
+            if (!is_in_range(triangle.v)) continue;  // no structure lists it
+            pack.add(triangle, id | (target.geometry->transmits(id) ? transmitting_bit : 0));
             if (pack.is_full()) search.pack(pack.take(), packets);
         }
         if (!pack.is_empty()) search.pack(pack.take(), packets);

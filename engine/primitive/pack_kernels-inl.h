@@ -108,7 +108,7 @@ HWY_INLINE FilterRay make_filter_ray(const glm::dvec3& o, const glm::dvec3& d, c
     f.depth_error = off;
     f.depth_error_per_edge = 0.0f;
     if (loose > 0.0f) {
-        f.depth_error_per_edge = loose * 0x1p-5f;
+        f.depth_error_per_edge = loose;  // a hundredth of it beside the triangle, on a plane of least_slope
         f.error_per_edge += loose * side_error<float> * (largest + static_cast<float>(reach));
     }
     return f;
