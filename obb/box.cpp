@@ -132,7 +132,9 @@ Box BoxMaker::make_in(const BoxPlan& plan, const Transform& local_from_node, flo
         const bool transmits = scene.material(id).transmits();
         if (!is_triangle) {
             const Quadric& shape = scene.quadrics[id - group.first - group.triangles + group.first_quadric];
-            box.quadrics.push_back(place_quadric(shape, box.local_from_node, id, transmits));
+            const RootQuadric placed = place_quadric(shape, box.local_from_node, id, transmits);
+            if (placed.bounds.empty()) return;
+            box.quadrics.push_back(placed);
             box.bounds.grow(box.quadrics.back().bounds);
             add_quadric(entries, box.quadrics.back());
             return;

@@ -103,12 +103,14 @@ RootQuadric place_quadric(const Quadric& shape, const Transform& root_from_group
         grow_circle(0.0, std::abs(shape.r0), 0.0);
         grow_circle(1.0, std::abs(shape.r1), 0.0);
     }
+    if (!(largest_coordinate(placed.bounds) <= farthest_place)) placed.bounds = {};
     return placed;
 }
 
 double intersect(const RootQuadric& placed, const glm::dvec3& origin, const glm::dvec3& direction, double t_min,
                  double t_max)
 {
+    if (placed.bounds.empty()) return infinity;
     const Quadric& q = placed.quadric;
     const LocalRay ray = to_local(placed, origin, direction);
     const auto [near, far] = q.kind == Quadric::Kind::sphere ? sphere_roots(ray) : cone_roots(ray, q.r0, q.r1 - q.r0);

@@ -13,7 +13,7 @@ namespace firstray::inline v0 {
 struct RootQuadric {
     Quadric quadric;
     Transform quadric_from_root;
-    DAabb bounds;  ///< in the root system, closed
+    DAabb bounds;  ///< in the root system, closed; empty where it is out of range: then it is not there
     PrimitiveId id = no_primitive;
     bool transmits = false;
 };

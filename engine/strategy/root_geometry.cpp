@@ -23,7 +23,7 @@ RootGeometry<Real>::RootGeometry(const Scene& scene)
       stood_(scene.groups.size()),
       is_there_(scene.groups.size()),
       moved_(scene.groups.size()),
-      is_finite_(scene.groups.size()),
+      in_range_(scene.groups.size()),
       was_listed_(scene.groups.size())
 {
     vertices_.reserve(scene.vertex_count() + 1);
@@ -45,13 +45,14 @@ template <typename Real>
 void RootGeometry<Real>::carry(const Pose& pose, std::uint32_t group, const Executor* executor) const
 {
     const Group& g = scene_.groups[group];
-    is_finite_[group].store(carry_vertices(pose, g, vertices_.data() + g.first_vertex, executor),
-                            std::memory_order_relaxed);
+    bool in_range = carry_vertices(pose, g, vertices_.data() + g.first_vertex, executor);
     for (std::uint32_t i = 0; i < g.quadrics; ++i) {
         const PrimitiveId id = g.first + g.triangles + i;
-        placed_[g.first_quadric + i] =
-            place_quadric(scene_.quadrics[g.first_quadric + i], pose.root_from_node[g.node], id, transmits(id));
+        RootQuadric& placed = placed_[g.first_quadric + i];
+        placed = place_quadric(scene_.quadrics[g.first_quadric + i], pose.root_from_node[g.node], id, transmits(id));
+        in_range = in_range && !placed.bounds.empty();
     }
+    in_range_[group].store(in_range, std::memory_order_relaxed);
     carried_[group].store(Carried::yes, std::memory_order_release);
 }
 
@@ -130,7 +131,7 @@ void RootGeometry<Real>::list_visible(const Pose& pose)
     bool same = visible_.size() > 0;
     for (std::size_t g = 0; g < scene_.groups.size(); ++g) {
         const std::uint8_t listed = !pose.is_visible(scene_.groups[g]) ? not_at_all
-                                    : is_finite_[g].load(std::memory_order_relaxed) ? wholly
+                                    : in_range_[g].load(std::memory_order_relaxed) ? wholly
                                                                                     : one_by_one;
         same = same && listed == was_listed_[g] && listed != one_by_one;
         was_listed_[g] = listed;
@@ -146,7 +147,7 @@ void RootGeometry<Real>::list(std::uint32_t index, PrimitiveList& list) const
 {
     const Group& group = scene_.groups[index];
     const PrimitiveId quadrics = group.first + group.triangles;
-    if (is_finite_[index].load(std::memory_order_relaxed)) {
+    if (in_range_[index].load(std::memory_order_relaxed)) {
         const std::size_t before = list.triangles.size();
         list.triangles.resize(before + group.triangles);
         std::iota(list.triangles.begin() + static_cast<std::ptrdiff_t>(before), list.triangles.end(), group.first);
@@ -154,7 +155,8 @@ void RootGeometry<Real>::list(std::uint32_t index, PrimitiveList& list) const
         for (PrimitiveId id = group.first; id < quadrics; ++id)
             if (is_in_range(triangle(id).v)) list.triangles.push_back(id);
     }
-    for (PrimitiveId id = quadrics; id < group.first + group.primitives(); ++id) list.quadrics.push_back(id);
+    for (PrimitiveId id = quadrics; id < group.first + group.primitives(); ++id)
+        if (!quadric(id).bounds.empty()) list.quadrics.push_back(id);
 }
 
 template <typename Real>

@@ -101,7 +101,7 @@ private:
     std::vector<Transform> stood_;                       ///< by group: root_from_node at the last update
     std::vector<std::uint8_t> is_there_, moved_;         ///< by group: visible at the last update; has_moved
     double time_ = 0.0;                                  ///< of the last update
-    mutable std::vector<std::atomic<bool>> is_finite_;   ///< by group: every vertex is, as last carried
+    mutable std::vector<std::atomic<bool>> in_range_;    ///< by group: everything is, as last carried
     std::vector<std::uint8_t> was_listed_;               ///< by group, at the last update: visible, and finite
     std::uint64_t version_ = 0;
     PrimitiveList visible_;
