@@ -95,7 +95,8 @@ struct World {
     {
         const GridStructure* inside = placed.box->enter();
         const BoxPrimitives<Real> primitives{target, *placed.box, placed.group, placed.in_root, ray};
-        if (HWY_UNLIKELY(!inside || !placed.in_range) || largest_component<double>(o) > far_away * static_cast<double>(inside->pad))
+        if (HWY_UNLIKELY(!inside || !placed.in_range) ||
+            largest_component<double>(o) > far_away * static_cast<double>(inside->pad))
             return one_by_one(quest, *placed.plan, primitives);
         Search<Quest, BoxPrimitives<Real>> search{quest, primitives, inside};
         return search.begin(o, d, target.precision == Precision::fast ? loose : 0.0f) &&

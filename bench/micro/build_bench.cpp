@@ -1,5 +1,6 @@
-// How long does each strategy take to build? A made terrain of growing size, built for the first time (`first`) and, when
-// every triangle of it deforms, for one frame after the other (`update`). Rays check every strategy before it is timed.
+// How long does each strategy take to build? A made terrain of growing size, built for the first time (`first`) and,
+// when every triangle of it deforms, for one frame after the other (`update`). Rays check every strategy before it is
+// timed.
 #include <benchmark/benchmark.h>
 
 #include <cmath>
@@ -11,12 +12,13 @@
 #include "engine/core/errors.h"
 #include "engine/render/camera_rays.h"
 #include "engine/scene/pose.h"
+#include "obb/smallest_obb.h"
 
 namespace firstray {
 namespace {
 
 constexpr const char* usage =
-    "build_bench [--sizes=1000,10000,...] [--strategies=a,b] [--threads=1] [Google Benchmark's own flags]\n"
+    "build_bench [--sizes=1000,10000,...] [--strategies=a,b] [--threads=1] [--isa=NAME] [Google Benchmark's flags]\n"
     "Sizes are in triangles; scenes that deform have at most a million. Names read terrain_SIZE/phase/strategy.\n";
 
 /// Deforming triangles take 300 bytes each.
@@ -36,6 +38,8 @@ bool apply(std::string_view flag, std::string_view value, Settings& settings)
         for (const std::string_view name : split(value, ',')) settings.contestants.push_back(contestant_of(name));
     else if (flag == "--threads")
         settings.threads = whole_number(flag, value);
+    else if (flag == "--isa")
+        hold_to(value);
     else
         return false;
     return true;
@@ -119,7 +123,8 @@ struct Subject {
     void report(benchmark::State& state, const Strategy<float>& strategy) const
     {
         const auto triangles = static_cast<double>(terrain(size, deforms).triangles.size());
-        state.counters["Mtri_per_s"] = benchmark::Counter(triangles * 1e-6, benchmark::Counter::kIsIterationInvariantRate);
+        state.counters["Mtri_per_s"] =
+            benchmark::Counter(triangles * 1e-6, benchmark::Counter::kIsIterationInvariantRate);
         state.counters["bytes_per_tri"] = static_cast<double>(strategy.report().bytes) / triangles;
     }
 };
@@ -153,18 +158,71 @@ void update(benchmark::State& state, const Subject& subject)
     subject.report(state, *strategy);
 }
 
+/// A picture of 256 rays in one beam.
+void first_rays(benchmark::State& state, const Subject& subject)
+{
+    subject.check_first();
+    const Pose now = pose(terrain(subject.size, false), 0.0);
+    std::unique_ptr<Strategy<float>> strategy;
+    for (auto _ : state) {
+        state.PauseTiming();
+        strategy = subject.make();
+        strategy->update(now);
+        state.ResumeTiming();
+        answers(*strategy, now);
+    }
+}
+
+void rays_again(benchmark::State& state, const Subject& subject)
+{
+    subject.check_first();
+    const Pose now = pose(terrain(subject.size, false), 0.0);
+    const auto strategy = subject.make();
+    strategy->update(now);
+    answers(*strategy, now);
+    for (auto _ : state) answers(*strategy, now);
+}
+
+/// Throws unless the box holds the points.
+void check(const obb::Obb& box, std::span<const glm::dvec3> points)
+{
+    for (const glm::dvec3& point : points)
+        for (int axis = 0; axis < 3; ++axis)
+            if (std::abs(glm::dot(point - box.centre, box.axes[axis])) > box.half[axis] * (1.0 + 1e-12))
+                throw Error(Fault::rendering, "smallest_obb leaves a point out");
+}
+
+/// Points of a terrain: flat, with hills.
+void fit_box(benchmark::State& state, int size)
+{
+    const std::vector<glm::dvec3>& points = terrain(size, false).positions;
+    check(obb::smallest_obb(points), points);
+    for (auto _ : state) benchmark::DoNotOptimize(obb::smallest_obb(points));
+}
+
+template <typename Run>
+void add(const std::string& name, Run run)
+{
+    benchmark::RegisterBenchmark(name.c_str(), run)->Unit(benchmark::kMillisecond)->UseRealTime();
+}
+
 void register_all(const Settings& settings, const Executor* executor)
 {
-    for (const int size : settings.sizes)
-        for (const bool deforms : {false, true})
-            for (const Contestant& contestant : settings.contestants) {
-                if (deforms && size > most_deforming) continue;
-                const std::string name = "terrain_" + std::to_string(size) + (deforms ? "/update/" : "/first/");
-                const Subject subject{size, deforms, contestant, executor};
-                benchmark::RegisterBenchmark((name + contestant.name).c_str(), [=](benchmark::State& state) {
-                    deforms ? update(state, subject) : build_first(state, subject);
-                })->Unit(benchmark::kMillisecond)->UseRealTime();
-            }
+    using State = benchmark::State;
+    for (const int size : settings.sizes) {
+        const std::string scene = "terrain_" + std::to_string(size);
+        for (const Contestant& contestant : settings.contestants) {
+            const Subject subject{size, false, contestant, executor};
+            add(scene + "/first/" + contestant.name, [=](State& state) { build_first(state, subject); });
+            add(scene + "/first_rays/" + contestant.name, [=](State& state) { first_rays(state, subject); });
+            add(scene + "/rays/" + contestant.name, [=](State& state) { rays_again(state, subject); });
+        }
+        add(scene + "/smallest_obb/obb", [=](State& state) { fit_box(state, size); });
+        for (const Contestant& contestant : settings.contestants)
+            if (size <= most_deforming)
+                add(scene + "/update/" + contestant.name,
+                    [=, subject = Subject{size, true, contestant, executor}](State& state) { update(state, subject); });
+    }
 }
 
 }  // namespace

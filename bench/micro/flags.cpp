@@ -5,6 +5,7 @@
 #include <iostream>
 
 #include "engine/core/errors.h"
+#include "engine/core/simd.h"
 
 namespace firstray {
 
@@ -18,6 +19,16 @@ const StrategyEntry* entry_of(std::string_view name)
     const StrategyEntry* entry = find_strategy(name);
     if (!entry || !entry->make) refuse("no strategy of single precision is named " + std::string(name));
     return entry;
+}
+
+void hold_to(std::string_view name)
+{
+    std::string known;
+    for (const std::string& set : instruction_sets()) {
+        if (set == name) return use_instruction_set(name);
+        known += " " + set;
+    }
+    refuse("--isa takes one of" + known);
 }
 
 int whole_number(std::string_view flag, std::string_view text)

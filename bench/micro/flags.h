@@ -20,6 +20,9 @@ std::vector<std::string_view> split(std::string_view text, char separator);
 /// A number >= 1.
 int whole_number(std::string_view flag, std::string_view text);
 
+/// Holds our kernels to an instruction set, and Embree with them.
+void hold_to(std::string_view name);
+
 /// The strategy of that name, of single precision.
 const StrategyEntry* entry_of(std::string_view name);
 /// A strategy's name, and its own choices behind it: NAME+FLAG=WORD+FLAG=WORD.

@@ -134,7 +134,8 @@ void refuse_differing(std::vector<Contender>& contenders)
     }
 }
 
-void time_frame(Contender& contender, const FrameRays& rays, bool scattered, const Executor& executor, PhaseTimes& times)
+void time_frame(Contender& contender, const FrameRays& rays, bool scattered, const Executor& executor,
+                PhaseTimes& times)
 {
     times.update = seconds_to_update(*contender.strategy, rays.pose());
     times.primary = seconds_to_search(*contender.strategy, rays, Phase::primary, executor);

@@ -56,7 +56,8 @@ void add_deforming(Scene& scene, int side)
                 key.normal[k] = {0.0f, 0.0f, 1.0f};
             }
         }
-        for (int k = 0; k < 3; ++k) scene.positions.push_back(scene.deforming_keys[scene.deforming.back().first_key].position[k]);
+        for (int k = 0; k < 3; ++k)
+            scene.positions.push_back(scene.deforming_keys[scene.deforming.back().first_key].position[k]);
     });
 }
 

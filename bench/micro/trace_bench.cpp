@@ -57,17 +57,6 @@ T choice(std::string_view flag, std::string_view value, std::pair<std::string_vi
     refuse(std::string(flag) + " takes " + std::string(a.first) + " or " + std::string(b.first));
 }
 
-/// Holds our kernels to an instruction set, and Embree with them.
-void hold_to(std::string_view name)
-{
-    std::string known;
-    for (const std::string& set : instruction_sets()) {
-        if (set == name) return use_instruction_set(name);
-        known += " " + set;
-    }
-    refuse("--isa takes one of" + known);
-}
-
 /// returns  whether the flag is one of ours
 bool apply(std::string_view flag, std::string_view value, Settings& settings)
 {

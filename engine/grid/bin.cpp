@@ -12,8 +12,8 @@ namespace {
 using Reference = BinScratch::Reference;
 using Piece = BinScratch::Piece;
 
-/// The cells of a small triangle's box are listed without a look at the triangle: that takes longer than to copy it to the
-/// few that it does not meet.
+/// The cells of a small triangle's box are listed without a look at the triangle: that takes longer than to copy it to
+/// the few that it does not meet.
 constexpr std::uint64_t too_few_to_test = 8;
 
 /// A thread is not worth waking for less.

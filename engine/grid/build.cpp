@@ -9,6 +9,7 @@
 #include "engine/grid/entry_kernels.h"
 #include "engine/grid/pack_lists.h"
 #include "engine/grid/resolution.h"
+#include "engine/grid/survey.h"
 
 namespace firstray::inline v0 {
 namespace {
@@ -131,37 +132,6 @@ void lay_out(const GridNode& node, const GridEntries& entries, std::uint32_t lev
             filling.lists.push_back({listed, cell_box(node.grid, cell)});
         }
     }
-}
-
-float half_area(const glm::vec3& d)
-{
-    return d.x * d.y + d.y * d.z + d.z * d.x;
-}
-
-/// What there is to know before the first cell.
-struct Beginning {
-    Aabb bounds;
-    /// Triangles that are kept out of the cells, ascending, at most a pack of them: they would be listed in very many,
-    /// and rays meet them often. All others are chosen.
-    std::vector<std::uint32_t> large;
-};
-
-/// The bounds of all entries and the largest triangles.
-Beginning survey(const GridEntries& entries, const Executor* executor)
-{
-    Beginning begun;
-    LargestTriangles largest;
-    begun.bounds = bounds_of(entries, executor, &largest);
-    Aabb with_room = begun.bounds;
-    with_room.grow(entries.room);
-    const bool too_wide = half_area(with_room.size()) > entries.most_room * half_area(begun.bounds.size());
-    if (begun.bounds.empty() || !too_wide) begun.bounds = with_room;
-    if (begun.bounds.empty()) begun.bounds = {glm::vec3(0.0f), glm::vec3(0.0f)};
-
-    for (const LargestTriangles::Triangle& triangle : largest.found())
-        if (triangle.half_area > half_area(begun.bounds.size()) / 256.0f) begun.large.push_back(triangle.entry);
-    std::sort(begun.large.begin(), begun.large.end());
-    return begun;
 }
 
 /// Takes some, ascending, out of 0, 1, 2, ...

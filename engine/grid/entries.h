@@ -14,9 +14,9 @@ namespace firstray::inline v0 {
 /// What is put into grids, in order: triangles in float, then quadrics. An *entry* is an index into these. Corners of
 /// triangles are read where the geometry keeps them, which must outlive this, or are held here.
 struct GridEntries {
-    RawVector<std::uint32_t> ids;    ///< PrimitiveIds; of triangles with transmitting_bit
-    std::uint32_t triangles = 0;     ///< how many come first
-    std::vector<Aabb> quadric_boxes; ///< by entry less `triangles`
+    RawVector<std::uint32_t> ids;         ///< PrimitiveIds; of triangles with transmitting_bit
+    std::uint32_t triangles = 0;          ///< how many come first
+    std::vector<Aabb> quadric_boxes;      ///< by entry less `triangles`
     const glm::vec3* vertices = nullptr;  ///< the geometry's, if corners are; what follows the last may be read
     const glm::uvec3* corners = nullptr;  ///< into vertices, by PrimitiveId; null: they stand in own_vertices, by entry
     RawVector<glm::vec3> own_vertices;    ///< three for each triangle; with room for one more
@@ -31,7 +31,8 @@ struct GridEntries {
     Aabb box(std::uint32_t entry) const;
     std::uint64_t bytes() const
     {
-        return 4 * ids.capacity() + sizeof(Aabb) * quadric_boxes.capacity() + sizeof(glm::vec3) * own_vertices.capacity();
+        return 4 * ids.capacity() + sizeof(Aabb) * quadric_boxes.capacity() +
+               sizeof(glm::vec3) * own_vertices.capacity();
     }
 };
 

@@ -54,7 +54,7 @@ struct CellFinder {
 struct RangeBlock {
     alignas(64) std::int32_t lo[3][pack_size], hi[3][pack_size];  ///< lowest and highest, by axis
     alignas(64) std::uint32_t lowest[pack_size];                  ///< cells' indices
-    std::uint32_t wide;  ///< mask of those with more than one cell
+    std::uint32_t wide;                                           ///< mask of those with more than one cell
 };
 
 /// The ranges of up to sixteen triangles.

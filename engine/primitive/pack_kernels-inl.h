@@ -57,7 +57,7 @@ struct FilterRay {
     float near_end = 0.0f, near_margin = 0.0f, far_end = 0.0f, far_margin = 0.0f;
     float margin = 6.0f;  ///< infinite where products with depths overflow: they then keep nothing out
     float depth_error, depth_error_per_edge;  ///< by how much a hit may lie before or behind all corners
-    float base = 0.0f, speed = 0.0f;  ///< depth at walk t is base + speed * t
+    float base = 0.0f, speed = 0.0f;          ///< depth at walk t is base + speed * t
 
     /// Where the walk begins; nothing before it is of interest.
     void set_near_end(const WalkRay& walk, float pad)
@@ -100,8 +100,8 @@ HWY_INLINE FilterRay make_filter_ray(const glm::dvec3& o, const glm::dvec3& d, c
     f.start_y = static_cast<float>(o[f.y] - slope_y * o[f.z]);
     // A sheared vertex is off by at most 16 half ulps of the largest coordinate (1 for the slope, 2 or 3 for the
     // product and difference, 6 for the start, 4 for the last difference, 2 for rounding the vertex where it came from
-    // double), and by twice the blur. Corners of a triangle that the ray meets are within 2 edges of the ray, so the side's error is at most
-    // 12 * off * edge + 2 * off^2.
+    // double), and by twice the blur. Corners of a triangle that the ray meets are within 2 edges of the ray, so the
+    // side's error is at most 12 * off * edge + 2 * off^2.
     const float off = largest * 0x1p-20f + 2.0f * blur;
     f.error_per_edge = 12.0f * off;
     f.error = 2.0f * off * off + std::numeric_limits<float>::min();
@@ -126,7 +126,8 @@ HWY_INLINE std::uint32_t candidates(const TrianglePack& pack, const FilterRay& r
                far_margin = hn::Set(d, ray.far_margin);
     const auto depth_error = hn::Set(d, ray.depth_error), depth_per_edge = hn::Set(d, ray.depth_error_per_edge);
     const bool up = ray.forward > 0.0f;
-    const auto first = hn::Set(d, up ? ray.near_end : -ray.far_end), last = hn::Set(d, up ? ray.far_end : -ray.near_end);
+    const auto first = hn::Set(d, up ? ray.near_end : -ray.far_end),
+               last = hn::Set(d, up ? ray.far_end : -ray.near_end);
     std::uint32_t found = 0;
     for (int lane = 0; lane < pack_size; lane += static_cast<int>(hn::Lanes(d))) {
         const auto along = [&](int corner, int axis) HWY_ATTR { return hn::Load(d, pack.v[corner][axis] + lane); };

@@ -78,7 +78,8 @@ bool carry(const Pose& pose, const Group& group, glm::vec<3, Real, glm::defaultp
     }
     for_pieces(executor, group.triangles, grain, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
-            const Between keys = keys_at(scene, deforming_triangle(scene, group, static_cast<std::uint32_t>(i)), pose.time);
+            const Between keys =
+                keys_at(scene, deforming_triangle(scene, group, static_cast<std::uint32_t>(i)), pose.time);
             const glm::uvec3 place = scene.triangles[group.first_triangle + i].vertex - group.first_vertex;
             Vec corners[3];
             for (int k = 0; k < 3; ++k) out[place[k]] = corners[k] = Vec(root_from_node.point(keys.position(k)));

@@ -33,7 +33,8 @@ RootGeometry<Real>::RootGeometry(const Scene& scene)
         const Group& group = scene.groups[part.group];
         const PrimitiveId end = part.first + part.count,
                           quadrics = std::clamp(group.first + group.triangles, part.first, end);
-        std::fill(transmits_.begin() + part.first, transmits_.begin() + end, scene.materials[part.material].transmits());
+        std::fill(transmits_.begin() + part.first, transmits_.begin() + end,
+                  scene.materials[part.material].transmits());
         for (PrimitiveId id = part.first; id < quadrics; ++id)
             corners_[id] = scene.triangles[id - group.first + group.first_triangle].vertex;
         for (PrimitiveId id = quadrics; id < end; ++id)
@@ -130,9 +131,9 @@ void RootGeometry<Real>::list_visible(const Pose& pose)
 {
     bool same = visible_.size() > 0;
     for (std::size_t g = 0; g < scene_.groups.size(); ++g) {
-        const std::uint8_t listed = !pose.is_visible(scene_.groups[g]) ? not_at_all
+        const std::uint8_t listed = !pose.is_visible(scene_.groups[g])             ? not_at_all
                                     : in_range_[g].load(std::memory_order_relaxed) ? wholly
-                                                                                    : one_by_one;
+                                                                                   : one_by_one;
         same = same && listed == was_listed_[g] && listed != one_by_one;
         was_listed_[g] = listed;
     }

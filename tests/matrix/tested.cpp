@@ -48,7 +48,7 @@ void tested_rows(Matrix& matrix)
 {
     for (const TestedRow& row : tested) {
         if (matrix.part() < 1.0) continue;
-        const Ended ended = run_program(fmt::format("{} -nc -ns -s=false '-tc={}'",
+        const Ended ended = run_program(fmt::format("'{}' -nc -ns -s=false '-tc={}'",
                                                     (matrix.programs() / "tests/firstray_tests").string(), row.test));
         const bool ran =
             ended.out.find("test cases: 0") == std::string::npos && ended.out.find("| 0 passed") == std::string::npos;
@@ -67,7 +67,7 @@ void mutant_rows(Matrix& matrix)
 {
     const auto run = [&](int mutant) {
         const auto program = matrix.programs() / fmt::format("tests/made_once_mutant_{}", mutant);
-        return run_program("TSAN_OPTIONS=halt_on_error=1 timeout 120 " + program.string()).code;
+        return run_program(fmt::format("TSAN_OPTIONS=halt_on_error=1 timeout 120 '{}'", program.string())).code;
     };
     const bool has_them = std::filesystem::exists(matrix.programs() / "tests/made_once_mutant_0");
     const bool is_clean = has_them && run(0) == 0;
