@@ -45,7 +45,7 @@ std::string others_hashes(const std::filesystem::path& program, const std::strin
                           const std::string& precision)
 {
     const test::TempFolder folder;
-    const Ended ended = run_program(program.string() + " " + options_of(scene, strategy, precision, 2, folder));
+    const Ended ended = run_program("'" + program.string() + "' " + options_of(scene, strategy, precision, 2, folder));
     return ended.code == 0 ? hashes_in(folder) : fmt::format("ended with {}", ended.code);
 }
 
