@@ -48,15 +48,8 @@ bool apply(std::string_view flag, std::string_view value, Settings& settings)
 Settings read_flags(int& argc, char** argv)
 {
     Settings settings;
-    int kept = 1;
-    for (int i = 1; i < argc; ++i) {
-        const std::string_view argument = argv[i];
-        if (argument == "--help") std::cout << usage << "\n";  // Google Benchmark adds its own and leaves
-        const std::size_t equals = argument.find('=');
-        const std::string_view value = equals == argument.npos ? "" : argument.substr(equals + 1);
-        if (!apply(argument.substr(0, equals), value, settings)) argv[kept++] = argv[i];
-    }
-    argc = kept;
+    take_flags(argc, argv, usage,
+               [&](std::string_view flag, std::string_view value) { return apply(flag, value, settings); });
     if (settings.sizes.empty()) settings.sizes = {1'000, 10'000, 100'000, 1'000'000};
     if (settings.contestants.empty())
         for (const char* name : {"grid", "obb", "lazy", "embree-low", "embree"})
@@ -240,6 +233,7 @@ int main(int argc, char** argv)
         benchmark::RunSpecifiedBenchmarks();
     } catch (const Error& error) {
         std::cerr << "build_bench: " << error.what() << "\n";
-        return 1;
+        if (error.fault() == Fault::usage) std::cerr << usage;
+        return static_cast<int>(error.fault());
     }
 }

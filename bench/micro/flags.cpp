@@ -9,6 +9,20 @@
 
 namespace firstray {
 
+void take_flags(int& argc, char** argv, const char* usage,
+                const std::function<bool(std::string_view flag, std::string_view value)>& apply)
+{
+    int kept = 1;
+    for (int i = 1; i < argc; ++i) {
+        const std::string_view argument = argv[i];
+        if (argument == "--help") std::cout << usage << "\n";  // Google Benchmark adds its own and leaves
+        const std::size_t equals = argument.find('=');
+        const std::string_view value = equals == argument.npos ? "" : argument.substr(equals + 1);
+        if (!apply(argument.substr(0, equals), value)) argv[kept++] = argv[i];
+    }
+    argc = kept;
+}
+
 [[noreturn]] void refuse(const std::string& message)
 {
     throw Error(Fault::usage, message);

@@ -1,5 +1,6 @@
 #pragma once
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -14,6 +15,12 @@ struct NamedScene {
     std::string name;
     std::filesystem::path file;
 };
+
+/// Takes a program's own flags, --NAME=VALUE or --NAME, out of a command line and leaves Google Benchmark's, whose --help
+/// follows ours.
+/// apply  `apply(flag, value)` says whether the flag is the program's, and takes it
+void take_flags(int& argc, char** argv, const char* usage,
+                const std::function<bool(std::string_view flag, std::string_view value)>& apply);
 
 [[noreturn]] void refuse(const std::string& message);
 std::vector<std::string_view> split(std::string_view text, char separator);

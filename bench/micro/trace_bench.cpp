@@ -111,19 +111,11 @@ void fill_defaults(Settings& settings)
     if (settings.scenes.empty()) settings.scenes = bart_scenes("trace_bench");
 }
 
-/// Takes our flags out of the command line and leaves Google Benchmark's.
 Settings read_flags(int& argc, char** argv)
 {
     Settings settings;
-    int kept = 1;
-    for (int i = 1; i < argc; ++i) {
-        const std::string_view argument = argv[i];
-        if (argument == "--help") std::cout << usage << "\n";  // Google Benchmark adds its own and leaves
-        const std::size_t equals = argument.find('=');
-        const std::string_view value = equals == argument.npos ? "" : argument.substr(equals + 1);
-        if (!apply(argument.substr(0, equals), value, settings)) argv[kept++] = argv[i];
-    }
-    argc = kept;
+    take_flags(argc, argv, usage,
+               [&](std::string_view flag, std::string_view value) { return apply(flag, value, settings); });
     fill_defaults(settings);
     return settings;
 }

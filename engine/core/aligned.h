@@ -7,7 +7,8 @@
 namespace firstray::inline v0 {
 
 /// Memory on the boundary of a cache line; much of it in huge pages where the system has them, because it takes longer
-/// to be given pages of 4 KB than to fill them. throws  std::bad_alloc
+/// to be given pages of 4 KB than to fill them.
+/// throws  std::bad_alloc
 void* allocate_lines(std::size_t bytes);
 void free_lines(void* memory, std::size_t bytes);
 

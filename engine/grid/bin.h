@@ -49,7 +49,8 @@ struct BinScratch {
     std::uint64_t bytes() const;
 };
 
-/// Lists each of the given entries in every cell that it overlaps: triangles exactly (plus pad), others by their boxes.
+/// Lists each of the given entries in every cell that it overlaps, plus pad: triangles exactly, but those of few cells and
+/// quadrics by their boxes.
 /// most      references at most, by an estimate from boxes in which a triangle of many cells is taken for a surface; a
 ///           grid of one cell is not limited
 /// executor  null: on this thread. The lists do not depend on it.
