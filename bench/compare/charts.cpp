@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bench/compare/text.h"
+
 namespace firstray::compare {
 namespace {
 
@@ -42,26 +44,75 @@ void set_apart(Chart& chart)
         for (double& x : chart.series[i].x) x += 0.008 * range * (static_cast<double>(i) - middle);
 }
 
-/// Leaves out labels that would be printed over others: the table has all names.
-void thin_labels(const Series& series, std::vector<std::string>& labels)
-{
-    constexpr double label_width = 0.4, label_height = 0.06;  // of the chart
-    if (series.x.empty()) return;
-    const auto [left, right] = std::minmax_element(series.x.begin(), series.x.end());
-    const double log_range = std::log(std::max(*right / *left, 1.01));
-    const double y_range = std::max(*std::max_element(series.y.begin(), series.y.end()), 1e-12);
-    std::vector<std::size_t> kept;
-    for (std::size_t i = 0; i < labels.size(); ++i) {
-        if (labels[i].empty()) continue;
-        const bool is_free = std::none_of(kept.begin(), kept.end(), [&](std::size_t k) {
-            return std::abs(std::log(series.x[i] / series.x[k])) < label_width * log_range &&
-                   std::abs(series.y[i] - series.y[k]) < label_height * y_range;
-        });
-        if (is_free)
-            kept.push_back(i);
-        else
-            labels[i].clear();
+/// A rectangle in parts of a chart's width and height.
+struct Patch {
+    double left, right, low, high;
+    bool meets(const Patch& other) const
+    {
+        return left < other.right && other.left < right && low < other.high && other.low < high;
     }
+};
+
+/// Where a label would be printed.
+Patch patch_of(const Label& label, double x, double y)
+{
+    constexpr double letter = 0.0155, height = 0.05, gap = 0.015;  // of the chart
+    const double width = letter * static_cast<double>(label.text.size());
+    const double left = label.is_left ? x - gap - width : x + gap, low = label.is_below ? y - gap - height : y + gap;
+    return {left, left + width, low, low + height};
+}
+
+/// Finds places in a chart for labels.
+class Labeller {
+public:
+    explicit Labeller(const Chart& chart) : ends_(log_range(chart))
+    {
+        constexpr double half = 0.012;  // of a marker
+        for (const Series& series : chart.series)
+            for (const double y : series.y) top_ = std::max(top_, y);
+        for (const Series& series : chart.series)
+            for (std::size_t i = 0; i < series.x.size(); ++i) {
+                const double x = across(series.x[i]), y = series.y[i] / top_;
+                taken_.push_back({x - half, x + half, y - half, y + half});
+            }
+    }
+
+    /// The label at a corner of its point where it covers nothing, or an empty one.
+    Label place(const std::string& text, double x, double y)
+    {
+        if (text.empty()) return {};
+        for (const bool is_left : {false, true})
+            for (const bool is_below : {false, true}) {
+                const Label label{text, is_left, is_below};
+                const Patch patch = patch_of(label, across(x), y / top_);
+                if (!is_free(patch)) continue;
+                taken_.push_back(patch);
+                return label;
+            }
+        return {};
+    }
+
+private:
+    double across(double x) const { return std::log(x / ends_.first) / std::log(ends_.second / ends_.first); }
+    bool is_free(const Patch& patch) const
+    {
+        constexpr double highest = 1.1;  // gnuplot rounds its axis up
+        return patch.left >= 0.0 && patch.right <= 1.0 && patch.low >= 0.0 && patch.high <= highest &&
+               std::none_of(taken_.begin(), taken_.end(), [&](const Patch& other) { return patch.meets(other); });
+    }
+
+    std::pair<double, double> ends_;
+    double top_ = 1e-12;
+    std::vector<Patch> taken_;
+};
+
+/// Labels that find no place are left out: the table has all names.
+void place_labels(Chart& chart)
+{
+    Labeller labeller(chart);
+    const Series& points = chart.series.front();
+    for (std::size_t i = 0; i < chart.labels.size(); ++i)
+        chart.labels[i] = labeller.place(chart.labels[i].text, points.x[i], points.y[i]);
 }
 
 std::vector<double> values_of(const Json& rounds)
@@ -121,11 +172,12 @@ Chart rays_chart(const Json& results)
     Chart chart{
         .id = "rays",
         .caption = "The fewer pixels a frame traces, the more the update counts: trace (solid) and update (dashed)",
-        .x_label = "the number of pixels is divided by",
         .y_label = "ms per frame",
         .x_log = true,
         .y_log = true};
-    if (!has(results, "sweep")) return chart;
+    if (!has(results, "sweep") || !has(results, "prediction")) return chart;
+    chart.x_label = fmt::format("a frame's {} primary rays are divided by",
+                                grouped(static_cast<std::uint64_t>(results["prediction"]["rays"].get<double>())));
     const int threads = results["settings"]["threads"];
     for (const Json& strategy : results["sweep"]["strategies"]) {
         const std::string name = strategy["name"];
@@ -169,12 +221,11 @@ Chart frameless_chart(const Json& results)
 {
     Chart chart{.id = "frameless",
                 .caption = "Error of frameless rendering against whole frames of the same time",
-                .x_label = "the number of pixels is divided by",
+                .x_label = "the number of pixels traced is divided by",
                 .y_label = "RMSE of colours in [0, 1]",
                 .x_log = true};
     if (!has(results, "frameless")) return chart;
-    Series mean{.name = "all compared frames", .style = 0},
-        worst{.name = "the worst of them", .style = 1, .dashed = true};
+    Series mean{.name = "compared frames", .style = 0}, worst{.name = "worst frame", .style = 1, .dashed = true};
     for (const Json& entry : results["frameless"]) {
         for (Series* series : {&mean, &worst}) series->x.push_back(entry["turns"]);
         mean.y.push_back(entry["image"]["rmse"]);
@@ -193,22 +244,27 @@ Chart trade_chart(const Json& results)
                 .x_log = true,
                 .x_marks = false};
     if (!has(results, "trade")) return chart;
-    Series all{.name = "settings", .style = 0, .points_only = true}, frontier{.name = "frontier", .style = 1};
+    Series all{.name = "settings", .style = 0, .points_only = true}, frontier{.name = "frontier", .style = 1},
+        memory{.name = "memory only", .style = 6, .points_only = true};
     std::vector<std::pair<double, double>> best;
     for (const Json& setting : results["trade"]["settings"]) {
         if (!setting["fault"].get<std::string>().empty()) continue;
-        all.x.push_back(setting["total_ms"]["median"]);
-        all.y.push_back(setting["image"]["rmse"]);
-        chart.labels.push_back(setting["on_frontier"].get<bool>() ? setting["name"].get<std::string>() : "");
-        if (setting["on_frontier"].get<bool>()) best.emplace_back(all.x.back(), all.y.back());
+        Series& series = setting["is_orientation"].get<bool>() ? memory : all;
+        series.x.push_back(setting["total_ms"]["median"]);
+        series.y.push_back(setting["image"]["rmse"]);
+        if (&series == &memory) continue;
+        const bool is_best = setting["on_frontier"];
+        chart.labels.push_back({is_best ? setting["name"].get<std::string>() : ""});
+        if (is_best) best.emplace_back(series.x.back(), series.y.back());
     }
     std::sort(best.begin(), best.end());
     for (const auto& [x, y] : best) {
         frontier.x.push_back(x);
         frontier.y.push_back(y);
     }
-    thin_labels(all, chart.labels);
-    if (!all.x.empty()) chart.series = {std::move(all), std::move(frontier)};
+    if (all.x.empty()) return chart;
+    chart.series = {std::move(all), std::move(frontier), std::move(memory)};
+    place_labels(chart);
     return chart;
 }
 

@@ -12,6 +12,14 @@
 namespace firstray::compare {
 namespace {
 
+/// What the whole comparison comes to; see Watch.
+double work_of(const Contest& contest)
+{
+    const Plan& plan = contest.plan();
+    return contest.work() + drawing_work_of(contest) + sweep_work(contest) + frameless_work_of(contest) +
+           (plan.trade ? trade_work(plan) : 0.0);
+}
+
 /// The fastest of our own; where none was timed, grid.
 Contestant contestant_to_trade(const Json& results, const Plan& plan)
 {
@@ -28,6 +36,7 @@ Report compare(const Scene& scene, std::span<const Texture> textures, const Plan
 {
     if (getloadavg(&facts.load_before, 1) != 1) facts.load_before = 0.0;
     Contest contest(scene, textures, plan, watch);
+    if (watch.expect) watch.expect(work_of(contest));
     Json sweep, frameless, trade;
     std::vector<FramePictures> pictures;
     try {

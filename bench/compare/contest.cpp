@@ -14,6 +14,9 @@ constexpr std::size_t most_rays_kept = std::size_t{8} << 20;        // of all fr
 constexpr std::size_t most_rays_of_a_frame = std::size_t{1} << 18;  // replayed in every round: enough for a mean
 constexpr double list_tests = 5e8;                                  // a frame; a thread makes about two in a nanosecond
 
+// A frame rendered, then its rays asked again.
+constexpr double check_work = 2.0, round_work = 2.0;
+
 /// Gives the reference's pictures and records the rays: all of our strategies give the same.
 constexpr const char* reference_strategy = "grid";
 
@@ -53,16 +56,21 @@ Sample Contest::sample_of(const RecordedRays& rays) const
     return {std::max<std::size_t>(1, (static_cast<std::size_t>(rays.kept()) + wanted - 1) / wanted)};
 }
 
+double Contest::work() const
+{
+    const auto frames = static_cast<double>(plan_.frames.size()), rows = static_cast<double>(rows_.size());
+    return frames * (executor_.threads() + rows * (check_work + plan_.repeat * round_work));
+}
+
 void Contest::check()
 {
-    watch_.expect_steps(plan_.frames.size() * (1 + rows_.size()));
     for (std::size_t f = 0; f < plan_.frames.size(); ++f) check_frame(f);
 }
 
 void Contest::check_frame(std::size_t f)
 {
     const int frame = plan_.frames[f];
-    watch_.step(fmt::format("frame {}: recording its rays", frame));
+    watch_.step(fmt::format("frame {}: recording its rays", frame), executor_.threads());
     RecordedRays rays(std::min(most_rays_of_a_frame, most_rays_kept / plan_.frames.size()));
     Frame expected;
     FrameFacts facts{frame, reference_->record(frame, plan_.render, expected, rays).rays, {}, {}};
@@ -78,7 +86,7 @@ void Contest::check_frame(std::size_t f)
     list_rays_ += truth.size();
     for (std::size_t i = 0; i < rows_.size(); ++i)
         attempt(i, [&] {
-            watch_.step(fmt::format("frame {}: checking {}", frame, rows_[i].contestant.name));
+            watch_.step(fmt::format("frame {}: checking {}", frame, rows_[i].contestant.name), check_work);
             Frame found;
             contenders_[i]->render(frame, plan_.render, found);
             rows_[i].errors.push_back(image_error(expected, found));
@@ -96,7 +104,6 @@ double Contest::list_ns_per_ray() const
 void Contest::measure()
 {
     const auto rounds = static_cast<std::size_t>(plan_.repeat);
-    watch_.expect_steps(rounds * plan_.frames.size() * rows_.size());
     for (std::size_t round = 0; round < rounds; ++round) {
         for (Row& row : rows_) row.rounds.emplace_back();
         for (std::size_t f = 0; f < plan_.frames.size(); ++f) measure_frame(f, round);
@@ -111,7 +118,8 @@ void Contest::measure_frame(std::size_t f, std::size_t round)
         const std::size_t i = (turn + round) % rows_.size();
         attempt(i, [&] {
             watch_.step(fmt::format("round {} of {}, frame {}: {}", round + 1, plan_.repeat, plan_.frames[f],
-                                    rows_[i].contestant.name));
+                                    rows_[i].contestant.name),
+                        round_work);
             FrameSample sample{contenders_[i]->render(plan_.frames[f], plan_.render, picture), {}};
             const ByKind<double> seconds = contenders_[i]->replay(rays_[f]);
             for (std::size_t kind = 0; kind < ray_kinds; ++kind)

@@ -40,6 +40,9 @@ public:
     /// throws  what the reference throws
     Contest(const Scene& scene, std::span<const Texture> textures, const Plan& plan, const Watch& watch);
 
+    /// What check() and measure() come to; see Watch.
+    double work() const;
+
     /// Records the rays of all frames and compares everyone's answers and pictures with the reference's. Warms up.
     void check();
 

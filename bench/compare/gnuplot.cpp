@@ -21,11 +21,11 @@ extern char** environ;
 namespace firstray::compare {
 namespace {
 
-// Colours that the colour-blind can tell apart; dashes and markers tell them apart without colour.
-// Source: M. Okabe, K. Ito, "Color Universal Design", 2008; the yellow is left out, it vanishes on white.
-constexpr std::array<const char*, 7> colours = {"#0072B2", "#D55E00", "#009E73", "#CC79A7",
-                                                "#E69F00", "#56B4E9", "#8A8A8A"};
-constexpr std::array<int, 7> markers = {7, 5, 9, 11, 13, 6, 4};
+// Colours that the colour-blind can tell apart; markers tell them apart without colour. Black is the page's ink.
+// Source: M. Okabe, K. Ito, "Color Universal Design", 2008, with grey for their yellow, which vanishes on white.
+constexpr std::array<const char*, 8> colours = {"#0072B2", "#D55E00", "#009E73", "#CC79A7",
+                                                "#E69F00", "#56B4E9", "#8A8A8A", "#000000"};
+constexpr std::array<int, 8> markers = {7, 5, 9, 11, 13, 6, 4, 12}, others = {6, 4, 8, 10, 12, 7, 5, 13};
 
 std::string quoted(const std::string& text)
 {
@@ -56,23 +56,27 @@ std::string data_block(const Series& series, std::size_t index)
 std::string plot_of(const Series& series, std::size_t index)
 {
     const auto style = static_cast<std::size_t>(series.style);
+    const std::size_t look = style % colours.size();
+    const bool is_second_turn = style / colours.size() % 2 == 1;  // the same colours again
     const char* with = series.points_only ? "points" : series.least.empty() ? "linespoints" : "yerrorlines";
     std::string text = fmt::format("$d{} using {} with {} lc rgb {} pt {} ps 0.8 lw 1.8", index,
-                                   series.least.empty() ? "1:2" : "1:2:3:4", with,
-                                   quoted(colours[style % colours.size()]), markers[style % markers.size()]);
-    if (!series.points_only) text += series.dashed ? " dt 2" : style >= colours.size() / 2 + 1 ? " dt 4" : " dt 1";
+                                   series.least.empty() ? "1:2" : "1:2:3:4", with, quoted(colours[look]),
+                                   is_second_turn ? others[look] : markers[look]);
+    if (!series.points_only) text += series.dashed ? " dt 2" : is_second_turn ? " dt 4" : " dt 1";
     return text + (series.name.empty() ? " notitle" : " title " + quoted(series.name) + " noenhanced");
 }
 
 std::string label_of(const Chart& chart, std::size_t i)
 {
     const Series& series = chart.series.front();
-    return fmt::format("set label {} at {}, {} left offset 0.6,0.4 noenhanced font \",11\"\n", quoted(chart.labels[i]),
-                       number(series.x[i]), number(series.y[i]));
+    const Label& label = chart.labels[i];
+    return fmt::format("set label {} at {}, {} {} offset {}0.6,{}0.5 noenhanced font \",11\"\n", quoted(label.text),
+                       number(series.x[i]), number(series.y[i]), label.is_left ? "right" : "left",
+                       label.is_left ? "-" : "", label.is_below ? "-" : "");
 }
 
-/// Wide enough for all points; a logarithmic axis has its marks at the first series' points.
-std::string x_axis(const Chart& chart)
+/// The least and the largest x of all points.
+std::pair<double, double> x_ends(const Chart& chart)
 {
     double low = std::numeric_limits<double>::infinity(), high = -low;
     for (const Series& series : chart.series)
@@ -80,11 +84,18 @@ std::string x_axis(const Chart& chart)
             low = std::min(low, x);
             high = std::max(high, x);
         }
+    return {low, high};
+}
+
+/// Wide enough for all points; a logarithmic axis has its marks at the first series' points.
+std::string x_axis(const Chart& chart)
+{
+    const auto [low, high] = x_ends(chart);
     if (!(low < high)) return "";  // gnuplot's own, around a single point
     const double margin = 0.04 * (high - low);
     if (!chart.x_log) return fmt::format("set xrange [{}:{}]\n", number(low - margin), number(high + margin));
-    const double room = chart.labels.empty() ? 1.1 : std::pow(high / low, 0.4);  // labels stand right of their points
-    std::string text = fmt::format("set logscale x\nset xrange [{}:{}]\n", number(0.9 * low), number(room * high));
+    const auto [from, to] = log_range(chart);
+    std::string text = fmt::format("set logscale x\nset xrange [{}:{}]\n", number(from), number(to));
     if (!chart.x_marks) return text + "set format x \"%g\"\n";
     std::string marks;
     for (const double x : chart.series.front().x) marks += (marks.empty() ? "" : ", ") + number(x);
@@ -137,18 +148,24 @@ private:
 
 }  // namespace
 
+std::pair<double, double> log_range(const Chart& chart)
+{
+    const auto [low, high] = x_ends(chart);
+    return {0.9 * low, high * (chart.labels.empty() ? 1.1 : std::pow(high / low, 0.4))};  // labels need room
+}
+
 std::string gnuplot_script(const Chart& chart, const std::string& file)
 {
     std::string text = fmt::format(
         "set terminal svg size 520,400 dynamic font \"sans-serif,14\" name {}\nset output {}\n"
         "set xlabel {} offset 0,0.5 noenhanced\nset ylabel {} noenhanced\nset grid lc rgb \"#999999\" lw 0.5 dt 3\n"
-        "set key below horizontal maxrows 3 samplen 2\nset border 3\nset tics nomirror\n",
+        "set key below horizontal maxrows 3 samplen 2 height 1\nset border 3\nset tics nomirror\n",
         quoted(chart.id), quoted(file), quoted(chart.x_label), quoted(chart.y_label));
     text += x_axis(chart);
     text += chart.y_log ? "set logscale y\nset format y \"%g\"\n" : "set yrange [0:*]\n";
     for (std::size_t i = 0; i < chart.series.size(); ++i) text += data_block(chart.series[i], i);
     for (std::size_t i = 0; i < chart.labels.size(); ++i)
-        if (!chart.labels[i].empty()) text += label_of(chart, i);
+        if (!chart.labels[i].text.empty()) text += label_of(chart, i);
     text += "plot ";
     for (std::size_t i = 0; i < chart.series.size(); ++i) text += (i ? ", \\\n  " : "") + plot_of(chart.series[i], i);
     return text + "\n";
@@ -163,6 +180,7 @@ std::string fit_for_page(std::string svg, const Chart& chart)
     replace_all(svg, "stroke='black'", "stroke='currentColor'");
     replace_all(svg, "stroke=\"black\"", "stroke=\"currentColor\"");
     replace_all(svg, "fill=\"black\"", "fill=\"currentColor\"");
+    replace_all(svg, "rgb(  0,   0,   0)", "currentColor");
     // Charts share a page, so names of their parts must differ.
     for (const char* name : {"gpPt", "gpDot", "gnuplot_canvas", "textbox", "greybox"})
         replace_all(svg, name, chart.id + name);

@@ -1,6 +1,7 @@
 #pragma once
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace firstray::compare {
@@ -13,6 +14,12 @@ struct Series {
     std::vector<double> x{}, y{}, least{}, most{};  ///< the last two empty: no spread
 };
 
+/// Beside a point; empty for none.
+struct Label {
+    std::string text;
+    bool is_left = false, is_below = false;  ///< of the point; otherwise right and above
+};
+
 /// What to draw.
 struct Chart {
     std::string id;       ///< letters and digits, another for every chart of a page
@@ -21,8 +28,11 @@ struct Chart {
     bool x_log = false, y_log = false;
     bool x_marks = true;  ///< a logarithmic x axis is marked at the points of the first series
     std::vector<Series> series{};
-    std::vector<std::string> labels{};  ///< at the points of the first series, where there are any
+    std::vector<Label> labels{};  ///< at the points of the first series, where there are any
 };
+
+/// Where a logarithmic x axis begins and ends.
+std::pair<double, double> log_range(const Chart& chart);
 
 /// The commands that make gnuplot draw the chart into `file`.
 std::string gnuplot_script(const Chart& chart, const std::string& file);

@@ -74,8 +74,10 @@ std::string HtmlTable::html() const
         text += row.marked ? "<tr class=\"marked\">" : "<tr>";
         for (std::size_t c = 0; c < row.cells.size(); ++c) {
             const char* tag = c == 0 ? "th" : "td";
-            text +=
-                std::string("<") + tag + (c == 0 ? " scope=\"row\">" : ">") + escaped(row.cells[c]) + "</" + tag + ">";
+            text += std::string("<") + tag + (c == 0 ? " scope=\"row\"" : "");
+            if (c + 1 == row.cells.size() && row.cells.size() < headings_.size())
+                text += " class=\"text\" colspan=\"" + std::to_string(headings_.size() - c) + "\"";
+            text += ">" + escaped(row.cells[c]) + "</" + tag + ">";
         }
         text += "</tr>\n";
     }

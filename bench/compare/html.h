@@ -23,6 +23,7 @@ class HtmlTable {
 public:
     /// headings  "|" in one starts a new line
     explicit HtmlTable(std::vector<std::string> headings) : headings_(std::move(headings)) {}
+    /// cells   the last one takes the columns that are left, as text
     /// marked  shows the row as one to beware of
     void add(std::vector<std::string> cells, bool marked = false);
     bool empty() const { return rows_.empty(); }

@@ -12,6 +12,7 @@ namespace firstray::compare {
 namespace {
 
 constexpr int metered_renders = 3;
+constexpr double drawing_work = 2.0 * metered_renders;  // rays go one by one
 
 std::vector<int> frames_to_draw(const Contest& contest)
 {
@@ -84,15 +85,20 @@ FramePictures finish(int frame, const std::vector<Drawn>& all)
 
 }  // namespace
 
+double drawing_work_of(const Contest& contest)
+{
+    const std::size_t pictures = std::max<std::size_t>(contest.plan().pictured.size(), 1) * contest.rows().size();
+    return static_cast<double>(pictures) * drawing_work;
+}
+
 std::vector<FramePictures> draw_pictures(Contest& contest)
 {
     std::vector<FramePictures> pictures;
     const std::vector<int> frames = frames_to_draw(contest);
-    contest.watch().expect_steps(frames.size() * contest.rows().size());
     for (const int frame : frames) {
         std::vector<Drawn> all;
         contest.for_each([&](const Row& row, Contender& contender) {
-            contest.watch().step(fmt::format("drawing frame {}: {}", frame, row.contestant.name));
+            contest.watch().step(fmt::format("drawing frame {}: {}", frame, row.contestant.name), drawing_work);
             all.push_back(draw(row.contestant.name, contender, contest.plan().render, frame, contest.scene().frames));
         });
         pictures.push_back(finish(frame, all));

@@ -23,4 +23,7 @@ struct FramePictures {
 /// Renders Plan::pictured once more, metering every ray; where that names none, the frame of most rays.
 std::vector<FramePictures> draw_pictures(Contest& contest);
 
+/// What that comes to; see Watch.
+double drawing_work_of(const Contest& contest);
+
 }  // namespace firstray::compare

@@ -32,21 +32,18 @@ public:
     Interrupted() : std::runtime_error("interrupted") {}
 };
 
-/// How a run is watched. Callables may be empty.
+/// How a run is watched. Work is told in renderings of a whole frame, about: then time left can be told too. Callables
+/// may be empty.
 struct Watch {
-    std::function<void(std::size_t steps)> expect;       ///< that many more steps are to come
-    std::function<void(const std::string& what)> begin;  ///< a step begins; the one before it has ended
-    std::function<bool()> stop;                          ///< whether to end early
+    std::function<void(double work)> expect;                          ///< what all steps come to, before the first
+    std::function<void(const std::string& what, double work)> begin;  ///< a step begins; the one before it has ended
+    std::function<bool()> stop;                                       ///< whether to end early
 
     /// throws  Interrupted
-    void step(const std::string& what) const
+    void step(const std::string& what, double work) const
     {
         if (stop && stop()) throw Interrupted();
-        if (begin) begin(what);
-    }
-    void expect_steps(std::size_t steps) const
-    {
-        if (expect) expect(steps);
+        if (begin) begin(what, work);
     }
 };
 

@@ -5,6 +5,7 @@
 #include "bench/compare/prediction.h"
 #include "bench/compare/results.h"
 #include "bench/compare/sweep.h"
+#include "bench/compare/verdict.h"
 
 namespace firstray::compare {
 namespace {
@@ -123,6 +124,7 @@ Json break_evens(const std::vector<Cost>& costs, const std::vector<std::string>&
                             {"above", names[first_is_faster_below ? k : i]},
                             {"rays", *at}});
         }
+    std::sort(json.begin(), json.end(), [](const Json& a, const Json& b) { return a["rays"] < b["rays"]; });
     return json;
 }
 
@@ -132,6 +134,7 @@ void add_errors(Json& prediction)
     std::vector<double> errors;
     for (const Json& law : prediction["strategies"])
         for (const Json& point : law["checked"]) errors.push_back(std::abs(point["error"].get<double>()));
+    prediction["checked_points"] = errors.size();
     prediction["median_error"] = quantile(errors, 0.5);
     prediction["largest_error"] = quantile(errors, 1.0);
 }
@@ -141,21 +144,23 @@ void add_errors(Json& prediction)
 Json prediction_of(const Json& results)
 {
     std::vector<Cost> costs;
-    std::vector<std::string> names;
+    std::vector<std::string> names;  // of those whose answers are right: the others have laws, but win nothing
     double rays = 0.0;
     const int threads = results["settings"]["threads"];
     Json prediction = {{"threads", threads}, {"rays", nullptr}, {"strategies", Json::array()}};
-    for (const Json& measured : results["sweep"]["strategies"])
-        for (const Json& strategy : results["strategies"]) {
-            if (strategy["name"] != measured["name"] || strategy["times"].is_null()) continue;
-            const std::optional<Point> alone = whole_frame(measured["points"], true);
-            if (!alone || alone->rays <= 0.0) continue;
-            rays = alone->rays;
-            costs.push_back(
-                fit_cost(*alone, whole_frame(measured["points"], false), point_of(fewest_rays(measured["points"]))));
-            names.push_back(strategy["name"]);
-            prediction["strategies"].push_back(law_of(results, measured, costs.back(), rays));
-        }
+    for (const Json& measured : results["sweep"]["strategies"]) {
+        const Json* strategy = find_row(results, measured["name"]);
+        if (!strategy || (*strategy)["times"].is_null()) continue;
+        const Json& points = measured["points"];
+        const std::optional<Point> alone = whole_frame(points, true);
+        if (!alone || alone->rays <= 0.0) continue;
+        rays = alone->rays;
+        const Cost cost = fit_cost(*alone, whole_frame(points, false), point_of(fewest_rays(points)));
+        prediction["strategies"].push_back(law_of(results, measured, cost, rays));
+        if (!counts(*strategy)) continue;
+        costs.push_back(cost);
+        names.push_back(measured["name"]);
+    }
     prediction["rays"] = rays;
     prediction["fastest_by_processors"] = reigns_of(fastest_by_processors(costs, rays, most_processors), names);
     prediction["fastest_by_rays"] =

@@ -6,6 +6,7 @@
 
 #include "bench/compare/charts.h"
 #include "bench/compare/html.h"
+#include "bench/compare/report_accuracy.h"
 #include "bench/compare/report_sections.h"
 #include "bench/compare/report_style.h"
 #include "bench/compare/table.h"
@@ -15,6 +16,14 @@
 namespace firstray::compare {
 namespace {
 
+/// winner         of the verdict
+/// clear, unclear  titles: whether it can be told from all others
+std::string answer_of(const Json& winner, const char* clear, const char* unclear)
+{
+    return fmt::format("<p><strong>{}:</strong> {}</p>", winner["level"].empty() ? clear : unclear,
+                       escaped(winner["sentence"].get<std::string>()));
+}
+
 std::string answer(const Json& results)
 {
     const Json& verdict = results["verdict"];
@@ -22,13 +31,15 @@ std::string answer(const Json& results)
     if (verdict["all"].is_null())
         text += "<p>Nothing was timed whose answers are right.</p>";
     else
-        text += "<p><strong>Fastest:</strong> " + escaped(verdict["all"]["sentence"].get<std::string>()) + "</p>";
+        text += answer_of(verdict["all"], "Fastest", "No clear winner");
     if (!verdict["own"].is_null() && verdict["own"]["fastest"] != verdict["all"]["fastest"])
-        text += "<p><strong>Of our own:</strong> " + escaped(verdict["own"]["sentence"].get<std::string>()) + "</p>";
+        text += answer_of(verdict["own"], "Of our own", "Of our own, no clear winner");
     if (const Json& marked = verdict["faster_but_marked"]; !marked.empty())
         text += "<p><strong>Faster, but marked:</strong> " + escaped(listed(marked)) +
                 ", whose answers differ from the reference's: see the accuracy columns.</p>";
-    return text + "</div>\n";
+    text += "</div>\n";
+    if (const std::string load = load_warning(results); !load.empty()) text += paragraph("Note: " + load + ".");
+    return text;
 }
 
 std::string head(const Json& results)
@@ -49,7 +60,6 @@ std::string head(const Json& results)
         text +=
             "<p class=\"warning\">This run was interrupted. The report has what was finished: whole rounds "
             "alone.</p>\n";
-    if (const std::string load = load_warning(results); !load.empty()) text += paragraph("Note: " + load + ".");
     return text;
 }
 
@@ -93,7 +103,7 @@ std::string plain_pictures(const std::vector<Triptych>& triptychs, int frame)
                  "</figcaption></figure>\n";
     }
     if (cells.empty()) return "";
-    return "<h3>Without a structure to draw or time by ray</h3>\n<div class=\"triptych\">\n" + cells + "</div>\n";
+    return "<h3>Without a structure to draw or time by ray</h3>\n<div class=\"strip\">\n" + cells + "</div>\n";
 }
 
 std::string scale_bar(const HeatScale& scale)
@@ -125,12 +135,13 @@ std::string report_html(const Json& results, const std::vector<FramePictures>& p
 {
     std::string page = head(results) + answer(results);
     page += "<h2>Summary</h2>\n" + summary_section(results);
-    page += "<h2>Frame by frame</h2>\n" + charts({update_chart(results), trace_chart(results)});
+    page +=
+        "<h2>Frame by frame</h2>\n" + charts({update_chart(results), trace_chart(results)}) + accuracy_note(results);
     page += pictures_section(pictures);
     page += "<h2>Structures</h2>\n" + structure_section(results);
     if (results.contains("prediction"))
         page += "<h2>Fewer rays, more processors</h2>\n" + charts({rays_chart(results), processors_chart(results)}) +
-                prediction_section(results);
+                accuracy_note(results) + prediction_section(results);
     if (results.contains("frameless"))
         page += "<h2>Frameless rendering</h2>\n" + charts({frameless_chart(results)}) + frameless_section(results);
     if (results.contains("trade"))

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "bench/compare/html.h"
+#include "bench/compare/report_accuracy.h"
 #include "bench/compare/table.h"
 #include "bench/compare/text.h"
 #include "bench/compare/verdict.h"
@@ -13,78 +14,37 @@
 namespace firstray::compare {
 namespace {
 
+/// How many rays everyone's t was compared on.
+std::uint64_t checked_hits(const Json& results)
+{
+    std::uint64_t hits = 0;
+    for (const Json& strategy : results["strategies"])
+        hits = std::max(hits, strategy["accuracy"]["hits"].get<std::uint64_t>());
+    return hits;
+}
+
 std::string median(const Json& spread)
 {
     return short_number(spread["median"]);
 }
 
-std::string decibels(const Json& psnr)
-{
-    return psnr.is_null() ? "∞" : fmt::format("{:.1f}", psnr.get<double>());
-}
-
-/// Behind the numbers of a table of speed.
-void add_accuracy(const Json& strategy, std::vector<std::string>& cells)
-{
-    const Json &accuracy = strategy["accuracy"], &image = accuracy["image"];
-    cells.push_back(short_number(accuracy["missed_per_million"]));
-    cells.push_back(short_number(accuracy["false_per_million"]));
-    cells.push_back(short_number(accuracy["t_error_p999"]));
-    cells.push_back(short_number(image["rmse"]));
-    cells.push_back(decibels(image["psnr"]));
-    cells.push_back(short_number(image["largest"]));
-    cells.push_back(percent(image["differing_share"]));
-}
-
-constexpr std::size_t accuracy_columns = 7;
-
-/// How many rays everyone's hits were compared on.
-std::uint64_t checked_rays(const Json& results)
-{
-    std::uint64_t rays = 0;
-    for (const Json& strategy : results["strategies"])
-        rays = std::max(rays, strategy["accuracy"]["rays"].get<std::uint64_t>());
-    return rays;
-}
-
-std::vector<std::string> with_accuracy(const Json& results, std::vector<std::string> headings)
-{
-    const std::string n = grouped(checked_rays(results));
-    for (const std::string& heading :
-         {"missed/M|of " + n, "false/M|of " + n, std::string("error of t,|99.9th"), std::string("RMSE"),
-          std::string("PSNR,|dB"), std::string("largest|difference"), std::string("pixels|differ")})
-        headings.push_back(heading);
-    return headings;
-}
-
-/// A row of a table of speed: what `speed` gives, then accuracy; a reason where nothing was timed.
-template <typename Speed>
-void add_row(const Json& strategy, std::size_t speed_columns, const Speed& speed, HtmlTable& table)
-{
-    std::vector<std::string> cells = {strategy["name"].get<std::string>()};
-    if (strategy["times"].is_null()) {
-        cells.resize(speed_columns + accuracy_columns, "–");
-    } else {
-        speed(strategy["times"], cells);
-        add_accuracy(strategy, cells);
-    }
-    table.add(std::move(cells), !counts(strategy));
-}
-
 std::string total_table(const Json& results)
 {
-    HtmlTable table(with_accuracy(
-        results, {"strategy", "update,|ms", "trace,|ms", "lazy,|ms", "total,|ms", "least to most|of the rounds"}));
-    for (const Json& strategy : results["strategies"])
-        add_row(
-            strategy, 6,
-            [](const Json& times, std::vector<std::string>& cells) {
-                for (const char* key : {"update_ms", "trace_ms", "lazy_build_ms", "total_ms"})
-                    cells.push_back(median(times[key]));
-                const Json& total = times["total_ms"];
-                cells.push_back(fmt::format("{} to {}", short_number(total["least"]), short_number(total["most"])));
-            },
-            table);
+    HtmlTable table(with_accuracy(results, {"strategy", "agrees", "update,|ms", "trace,|ms", "building|in it, ms",
+                                            "total,|ms", "least to most|of the rounds"}));
+    for (const Json& strategy : results["strategies"]) {
+        const Json& times = strategy["times"];
+        if (times.is_null()) {
+            add_speed_row(strategy, {}, table);
+            continue;
+        }
+        const Json& total = times["total_ms"];
+        add_speed_row(strategy,
+                      {agreement_word(strategy), median(times["update_ms"]), median(times["trace_ms"]),
+                       median(times["lazy_build_ms"]), median(total),
+                       fmt::format("{} to {}", short_number(total["least"]), short_number(total["most"]))},
+                      table);
+    }
     return table.html();
 }
 
@@ -92,15 +52,15 @@ std::string alone_table(const Json& results)
 {
     HtmlTable table(
         with_accuracy(results, {"strategy", "structure|alone, ms", "ns per|primary", "shadow", "other ray"}));
-    for (const Json& strategy : results["strategies"])
-        add_row(
-            strategy, 5,
-            [](const Json& times, std::vector<std::string>& cells) {
-                cells.push_back(median(times["structure_ms"]));
-                for (const char* kind : {"primary", "shadow", "secondary"})
-                    cells.push_back(median(times["ns_per_ray"][kind]));
-            },
+    for (const Json& strategy : results["strategies"]) {
+        const Json& times = strategy["times"];
+        if (times.is_null()) continue;
+        const Json& ns = times["ns_per_ray"];
+        add_speed_row(
+            strategy,
+            {median(times["structure_ms"]), median(ns["primary"]), median(ns["shadow"]), median(ns["secondary"])},
             table);
+    }
     return table.html();
 }
 
@@ -122,12 +82,12 @@ std::string wrong_hits(const Json& results)
     return text;
 }
 
-/// What is to be said of rows that failed or disagree.
+/// What marks mean: the rows that were not timed tell why themselves.
 std::string remarks(const Json& results)
 {
     std::string text;
     for (const Json& strategy : results["strategies"])
-        if (!remark(strategy).empty())
+        if (!strategy["times"].is_null() && !remark(strategy).empty())
             text += "<p class=\"warning\">" + escaped(strategy["name"].get<std::string>() + ": " + remark(strategy)) +
                     "</p>\n";
     return text;
@@ -138,11 +98,12 @@ std::string summary_section(const Json& results)
     return total_table(results) + remarks(results) + wrong_hits(results) +
            paragraph(fmt::format(
                "Means over the frames, medians over the rounds; strategies took turns frame by frame. Trace has "
-               "shading, textures and lazy building in it; lazy is the building alone, added up over threads. Hits "
-               "are compared with list, which tests every primitive: missed and false ones per million (M) of so many "
-               "rays; 0 of N means less than 3/N with 95 % confidence. Pictures are compared with {}'s; pixels differ "
-               "when a channel does by more than half of 1/255.",
-               results["settings"]["reference"].get<std::string>())) +
+               "shading, textures and lazy building in it; building in it is added up over threads. Hits are compared "
+               "with list, which tests every primitive: missed and false ones per million (M) of so many rays; 0 of N "
+               "means less than 3/N with 95 % confidence. The error of t is relative, over {} hits. Pictures, of "
+               "colours in [0, 1], are compared with {}'s; pixels differ when a channel does by more than half of "
+               "1/255.",
+               grouped(checked_hits(results)), results["settings"]["reference"].get<std::string>())) +
            "<h3>The structure alone</h3>\n" + alone_table(results) +
            paragraph(
                "The frame's rays asked again of the structure as it then stands, and nothing else: ns are a "
@@ -177,13 +138,13 @@ std::string structure_section(const Json& results)
 std::string frameless_section(const Json& results)
 {
     HtmlTable table({"pixels|divided by", "RMSE", "worst frame's", "PSNR, dB", "largest|difference",
-                     "pixels that|differ", "another hue|(Yee)", "frames|compared", ""});
+                     "pixels that|differ", "another hue|(Yee)", "pixels|compared", "frames|compared", ""});
     for (const Json& entry : results["frameless"]) {
         const Json& image = entry["image"];
         const double perceived = image["perceived"].get<double>() / std::max(1.0, image["pixels"].get<double>());
         table.add({entry["turns"].dump(), short_number(image["rmse"]), short_number(entry["worst_rmse"]),
                    decibels(image["psnr"]), short_number(image["largest"]), percent(image["differing_share"]),
-                   percent(perceived), std::to_string(entry["frames"].size()),
+                   percent(perceived), grouped(image["pixels"]), std::to_string(entry["frames"].size()),
                    entry["is_refreshed"].get<bool>() ? "" : "the animation is too short for all pixels"});
     }
     return table.html() +

@@ -1,8 +1,12 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "bench/compare/html.h"
+#include "bench/compare/report_accuracy.h"
 #include "bench/compare/report_sections.h"
 #include "bench/compare/text.h"
+#include "bench/compare/trade.h"
 
 namespace firstray::compare {
 namespace {
@@ -19,22 +23,27 @@ std::string note_of(const Json& setting)
 std::vector<std::string> cells_of(const Json& setting)
 {
     std::vector<std::string> cells = {setting["name"].get<std::string>(), note_of(setting)};
-    if (!setting["fault"].get<std::string>().empty()) {
-        cells.resize(13, "–");
-        return cells;
-    }
+    if (!setting["fault"].get<std::string>().empty()) return cells;
     const Json &image = setting["image"], &hits = setting["hits"];
     for (const char* key : {"update_ms", "trace_ms", "total_ms"}) cells.push_back(short_number(setting[key]["median"]));
     cells.push_back(short_number(image["rmse"]));
-    cells.push_back(image["psnr"].is_null() ? "∞" : fmt::format("{:.1f}", image["psnr"].get<double>()));
+    cells.push_back(decibels(image["psnr"]));
     cells.push_back(short_number(image["largest"]));
-    cells.push_back(short_number(100.0 * image["differing_share"].get<double>()) + " %");
-    const double perceived = image["perceived"].get<double>() / image["pixels"].get<double>();
-    cells.push_back(short_number(100.0 * perceived) + " %");
-    cells.push_back(short_number(hits["missed_per_million"]));
-    cells.push_back(short_number(hits["false_per_million"]));
+    cells.push_back(percent(image["differing_share"]));
+    cells.push_back(percent(image["perceived"].get<double>() / image["pixels"].get<double>()));
+    for (const char* key : {"missed_per_million", "false_per_million", "t_error_p999"})
+        cells.push_back(short_number(hits[key]));
     cells.push_back(megabytes(setting["bytes"]));
     return cells;
+}
+
+/// How many pixels every setting's pictures were compared on.
+std::uint64_t compared_pixels(const Json& trade)
+{
+    std::uint64_t pixels = 0;
+    for (const Json& setting : trade["settings"])
+        if (setting.contains("image")) pixels = std::max(pixels, setting["image"]["pixels"].get<std::uint64_t>());
+    return pixels;
 }
 
 }  // namespace
@@ -42,20 +51,19 @@ std::vector<std::string> cells_of(const Json& setting)
 std::string trade_section(const Json& results)
 {
     const Json& trade = results["trade"];
+    const std::string rays = grouped(trade["rays"]), pixels = grouped(compared_pixels(trade));
     HtmlTable table({"setting", "", "update,|ms", "trace,|ms", "total,|ms", "RMSE", "PSNR,|dB", "largest|diff.",
-                     "pixels|differ", "hue|(Yee)", "missed|per M", "false|per M", "memory"});
+                     "differ, of|" + pixels + " px", "hue|(Yee)", "missed/M|of " + rays, "false/M|of " + rays,
+                     "error of t,|99.9th", "memory"});
     for (const Json& setting : trade["settings"])
         table.add(cells_of(setting), !setting["worse_than"].get<std::string>().empty());
-    return table.html() +
-           fmt::format(
-               "<p class=\"note\">{}</p>\n",
-               escaped(fmt::format(
-                   "Strategy {}; the reference is {}. Missed and false hits against list in double, of {} rays each. "
-                   "A setting is worse than another when it is slower in every round, by 5 % in the median, and not "
-                   "more accurate; such "
-                   "settings nobody should use. Settings that only cost memory are there for orientation.",
-                   trade["strategy"].get<std::string>(), trade["reference"].get<std::string>(),
-                   grouped(trade["rays"]))));
+    return paragraph("Settings nobody should use: " + listed(worse_settings(trade)) + ".", "plain") + table.html() +
+           paragraph(fmt::format(
+               "Strategy {}; pictures are compared with {}, hits with list in double. A setting nobody should use is "
+               "slower than another in every round, by 5 % in the median, and no more accurate: its RMSE is not less "
+               "by a per cent, and it misses and hits falsely as often or more. Settings that only cost memory are "
+               "there for orientation.",
+               trade["strategy"].get<std::string>(), trade["reference"].get<std::string>()));
 }
 
 }  // namespace firstray::compare

@@ -14,7 +14,8 @@ namespace {
 
 constexpr std::size_t most_frames = 2;
 constexpr int rounds = 3;
-constexpr int compared_frames = 4;  // at the end of a frameless run
+constexpr int compared_frames = 4;      // at the end of a frameless run
+constexpr double frameless_work = 0.5;  // a frame's, some of them whole
 
 /// Positions among the plan's frames.
 std::vector<std::size_t> some_frames(std::size_t all)
@@ -30,6 +31,20 @@ std::set<int> shares_of(const Plan& plan)
     std::set<int> shares = {1, 4, 16, 64};
     shares.insert(plan.frameless.begin(), plan.frameless.end());
     return shares;
+}
+
+/// A step's work on all threads: frames of all shares.
+double work_shared(const Plan& plan)
+{
+    double frames = 0.0;
+    for (const int turns : shares_of(plan)) frames += 1.0 / turns;
+    return frames * static_cast<double>(std::min(plan.frames.size(), most_frames));
+}
+
+/// Likewise on one, searching alone included.
+double work_alone(const Plan& plan, int threads)
+{
+    return threads * (work_shared(plan) + static_cast<double>(std::min(plan.frames.size(), most_frames)));
 }
 
 /// Which point: threads, and pixels dealt out into how many turns.
@@ -69,7 +84,6 @@ public:
     void run()
     {
         const std::size_t arms = contest_.executor().threads() > 1 ? 2 : 1;
-        contest_.watch().expect_steps(pairs_.size() * rounds * arms);
         for (int round = 0; round < rounds; ++round)
             for (Pair& pair : pairs_) {
                 time(pair, *pair.alone, 1, round);
@@ -97,7 +111,9 @@ private:
     /// a strategy remembers of the last frame is as many rays.
     void time(Pair& pair, Contender& contender, int threads, int round)
     {
-        contest_.watch().step(fmt::format("rays and threads, round {}: {} on {}", round + 1, pair.name, threads));
+        const double work =
+            threads == 1 ? work_alone(contest_.plan(), contest_.executor().threads()) : work_shared(contest_.plan());
+        contest_.watch().step(fmt::format("rays and threads, round {}: {} on {}", round + 1, pair.name, threads), work);
         const RenderOptions& options = contest_.plan().render;
         for (const FramelessTurns& turns : turns_) {  // one turn is all pixels, in the order of the shares
             prepare(options);
@@ -184,7 +200,7 @@ Json frameless_error(Contest& contest, Contender& contender, int turns)
     ImageError sum;
     double worst = 0.0;
     for (std::size_t i = 0; i < frames.size(); ++i) {
-        contest.watch().step(fmt::format("frameless 1/{}: frame {}", turns, frames[i]));
+        contest.watch().step(fmt::format("frameless 1/{}: frame {}", turns, frames[i]), frameless_work);
         if (i == 0)
             contender.render(frames[i], plan.render, picture);
         else
@@ -205,6 +221,21 @@ Json frameless_error(Contest& contest, Contender& contender, int turns)
 
 }  // namespace
 
+double sweep_work(const Contest& contest)
+{
+    const int threads = contest.executor().threads();
+    const double shared = threads > 1 ? work_shared(contest.plan()) : 0.0;
+    return static_cast<double>(contest.rows().size()) * rounds * (work_alone(contest.plan(), threads) + shared);
+}
+
+double frameless_work_of(const Contest& contest)
+{
+    double frames = 0.0;
+    for (const int turns : contest.plan().frameless)
+        frames += static_cast<double>(row_of_frames(contest, turns).size());
+    return frames * frameless_work;
+}
+
 Json measure_sweep(Contest& contest)
 {
     Sweep sweep(contest);
@@ -215,9 +246,6 @@ Json measure_sweep(Contest& contest)
 Json measure_frameless(Contest& contest)
 {
     const Plan& plan = contest.plan();
-    std::size_t steps = 0;
-    for (const int turns : plan.frameless) steps += row_of_frames(contest, turns).size();
-    contest.watch().expect_steps(steps);
     Json errors = nullptr;
     contest.for_each([&](const Row& row, Contender& contender) {
         if (!errors.is_null() || row.contestant.entry->peer) return;

@@ -15,6 +15,10 @@ namespace firstray::compare {
 ///          frames
 Json measure_sweep(Contest& contest);
 
+/// What measure_sweep() and measure_frameless() come to; see Watch.
+double sweep_work(const Contest& contest);
+double frameless_work_of(const Contest& contest);
+
 /// Fits the law of prediction.h to each strategy's points and holds it against the others.
 /// results  with "sweep", "frames" and "strategies"
 /// returns  what results.json has under "prediction"

@@ -15,8 +15,8 @@ namespace {
 constexpr std::size_t columns = 14;
 using Line = std::array<std::string, columns>;
 
-const Line headings = {"strategy", "update ms", "trace ms", "building", "total ms", "[least most]", "ns/ray: 1st",
-                       "shadow",   "2nd",       "MB",       "missed/M", "false/M",  "RMSE",         "differ %"};
+const Line headings = {"strategy", "update ms", "trace ms", "total ms", "[least most]", "alone ms", "MB",
+                       "missed/M", "false/M",   "t error",  "RMSE",     "PSNR",         "largest",  "differ %"};
 
 Line line_of(const Json& strategy)
 {
@@ -24,22 +24,22 @@ Line line_of(const Json& strategy)
     line[0] = strategy["name"];
     const Json &times = strategy["times"], &accuracy = strategy["accuracy"], &image = accuracy["image"];
     if (times.is_null()) return line;
-    const auto median = [](const Json& spread) { return short_number(spread["median"]); };
+    const auto median = [&](const char* key) { return short_number(times[key]["median"]); };
     const Json& total = times["total_ms"];
-    line[1] = median(times["update_ms"]);
-    line[2] = median(times["trace_ms"]);
-    line[3] = median(times["lazy_build_ms"]);
-    line[4] = median(total);
-    line[5] = fmt::format("[{} {}]", short_number(total["least"]), short_number(total["most"]));
-    line[6] = median(times["ns_per_ray"]["primary"]);
-    line[7] = median(times["ns_per_ray"]["shadow"]);
-    line[8] = median(times["ns_per_ray"]["secondary"]);
+    line[1] = median("update_ms");
+    line[2] = median("trace_ms");
+    line[3] = median("total_ms");
+    line[4] = fmt::format("[{} {}]", short_number(total["least"]), short_number(total["most"]));
+    line[5] = median("structure_ms");
     double bytes = 0.0;
     for (const Json& frame : strategy["frames"]) bytes = std::max(bytes, frame["structure"]["bytes"].get<double>());
-    line[9] = short_number(1e-6 * bytes);
-    line[10] = short_number(accuracy["missed_per_million"]);
-    line[11] = short_number(accuracy["false_per_million"]);
-    line[12] = short_number(image["rmse"]);
+    line[6] = short_number(1e-6 * bytes);
+    line[7] = short_number(accuracy["missed_per_million"]);
+    line[8] = short_number(accuracy["false_per_million"]);
+    line[9] = short_number(accuracy["t_error_p999"]);
+    line[10] = short_number(image["rmse"]);
+    line[11] = image["psnr"].is_null() ? "inf" : fmt::format("{:.1f}", image["psnr"].get<double>());
+    line[12] = short_number(image["largest"]);
     line[13] = short_number(100.0 * image["differing_share"].get<double>());
     return line;
 }
@@ -63,6 +63,13 @@ std::string aligned(const std::vector<Line>& lines, const std::vector<std::strin
     return text;
 }
 
+std::string answer_line(const Json& winner, const char* clear, const char* unclear)
+{
+    return fmt::format("{}: {}\n", winner["level"].empty() ? clear : unclear, winner["sentence"].get<std::string>());
+}
+
+}  // namespace
+
 std::uint64_t checked_rays(const Json& results)
 {
     std::uint64_t rays = 0;
@@ -70,8 +77,6 @@ std::uint64_t checked_rays(const Json& results)
         rays = std::max(rays, strategy["accuracy"]["rays"].get<std::uint64_t>());
     return rays;
 }
-
-}  // namespace
 
 std::string remark(const Json& strategy)
 {
@@ -107,15 +112,15 @@ std::string summary_table(const Json& results)
     std::string text = setting_line(results) + (results["interrupted"].get<bool>() ? " (interrupted)" : "") + "\n";
     text += aligned(lines, remarks);
     text += fmt::format(
-        "means over the frames, medians of the rounds; building: part of trace, summed over threads; hits are checked "
-        "against list on {} rays, pictures against {}\n",
+        "means over the frames, medians of the rounds; alone: searching the structure for the frame's rays, nothing "
+        "else; hits are checked against list on {} rays (t error: 99.9th percentile), pictures against {}\n",
         grouped(checked_rays(results)), results["settings"]["reference"].get<std::string>());
     if (const std::string load = load_warning(results); !load.empty()) text += load + "\n";
     const Json verdict = verdict_of(results);
     if (verdict["all"].is_null()) return text;
-    text += "fastest: " + verdict["all"]["sentence"].get<std::string>() + "\n";
+    text += answer_line(verdict["all"], "fastest", "no clear winner");
     if (!verdict["own"].is_null() && verdict["own"]["fastest"] != verdict["all"]["fastest"])
-        text += "of our own: " + verdict["own"]["sentence"].get<std::string>() + "\n";
+        text += answer_line(verdict["own"], "of our own", "of our own, no clear winner");
     if (!verdict["faster_but_marked"].empty())
         text += "faster, but marked !!: " + listed(verdict["faster_but_marked"]) + "\n";
     return text;

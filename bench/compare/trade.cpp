@@ -24,6 +24,18 @@ std::vector<std::size_t> chosen_frames(const Contest& contest)
     return chosen;
 }
 
+int rounds_of(const Plan& plan)
+{
+    return std::min(plan.repeat, most_rounds);
+}
+
+/// Of one step, see Watch: frameless frames come after a whole one and as many parts as make another.
+double work_of(const TradeSetting& setting)
+{
+    const double frames = setting.turns > 1 ? 2.0 : 1.0;
+    return frames * setting.render.samples * (setting.options.precision == Precision::double_ ? 2.0 : 1.0);
+}
+
 /// A setting at work.
 struct Entry {
     TradeSetting setting;
@@ -50,8 +62,7 @@ public:
 
     void run()
     {
-        const int rounds = std::min(contest_.plan().repeat, most_rounds);
-        contest_.watch().expect_steps(frames_.size() * entries_.size() * static_cast<std::size_t>(rounds + 1));
+        const int rounds = rounds_of(contest_.plan());
         for (const std::size_t f : frames_) check(f);
         for (int round = 0; round < rounds; ++round)
             for (const std::size_t f : frames_)
@@ -119,7 +130,8 @@ private:
         const std::vector<RayAnswer> truth = truth_->sparse_answers(rays, sample);
         for (Entry& entry : entries_)
             attempt(entry, [&] {
-                contest_.watch().step(fmt::format("trade, frame {}: {}", frame, entry.setting.name));
+                contest_.watch().step(fmt::format("trade, frame {}: {}", frame, entry.setting.name),
+                                      work_of(entry.setting));
                 entry.error += image_error(expected, picture_at(entry, frame));
                 entry.hits += agreement(truth, entry.contender->answers(rays, sample));
             });
@@ -141,7 +153,8 @@ private:
     {
         const TradeSetting& setting = entry.setting;
         const int frame = contest_.frames()[f].frame;
-        contest_.watch().step(fmt::format("trade, round {}, frame {}: {}", round + 1, frame, setting.name));
+        contest_.watch().step(fmt::format("trade, round {}, frame {}: {}", round + 1, frame, setting.name),
+                              work_of(setting));
         if (setting.turns > 1) picture_at(entry, std::max(0, frame - 1));
         const FramelessTurns turns(setting.render.width, setting.render.height, setting.turns, contest_.plan().seed);
         const FrameStats stats =
@@ -205,11 +218,22 @@ double total_of(const Json& setting)
     return setting["total_ms"]["median"];
 }
 
+double wrong_of(const Json& setting)
+{
+    return setting["hits"]["missed_per_million"].get<double>() + setting["hits"]["false_per_million"].get<double>();
+}
+
+bool is_as_accurate(const Json& a, const Json& b)
+{
+    constexpr double same = 1.01;  // which samples a pixel happens to have makes as much
+    return error_of(a) <= same * error_of(b) && wrong_of(a) <= wrong_of(b);
+}
+
 /// Faster in every round, by so much in the median, and not less accurate.
 bool is_clearly_better(const Json& a, const Json& b)
 {
     constexpr double least_gain = 1.05;  // three rounds are few: less than that is not worth a warning
-    if (error_of(a) > error_of(b) || total_of(b) < least_gain * total_of(a)) return false;
+    if (!is_as_accurate(a, b) || total_of(b) < least_gain * total_of(a)) return false;
     for (std::size_t round = 0; round < a["totals"].size(); ++round)
         if (a["totals"][round] >= b["totals"][round]) return false;
     return true;
@@ -217,11 +241,17 @@ bool is_clearly_better(const Json& a, const Json& b)
 
 bool beats(const Json& a, const Json& b)
 {
-    const bool is_no_worse = error_of(a) <= error_of(b) && total_of(a) <= total_of(b);
-    return is_no_worse && (error_of(a) < error_of(b) || total_of(a) < total_of(b));
+    return is_as_accurate(a, b) && total_of(a) < total_of(b);
 }
 
 }  // namespace
+
+double trade_work(const Plan& plan)
+{
+    double work = 0.0;
+    for (const TradeSetting& setting : trade_settings(plan, parse_contestant("grid"))) work += work_of(setting);
+    return static_cast<double>(std::min(plan.frames.size(), most_frames)) * (1 + rounds_of(plan)) * work;
+}
 
 Json measure_trade(Contest& contest, const Contestant& contestant)
 {
@@ -243,16 +273,21 @@ void judge(Json& settings)
     }
 }
 
-std::string trade_summary(const Json& trade)
+std::vector<std::string> worse_settings(const Json& trade)
 {
-    std::vector<const Json*> frontier;
     std::vector<std::string> worse;
-    for (const Json& setting : trade["settings"]) {
-        if (setting["on_frontier"].get<bool>()) frontier.push_back(&setting);
+    for (const Json& setting : trade["settings"])
         if (setting["worse_than"] != "")
             worse.push_back(fmt::format("{} (worse than {})", setting["name"].get<std::string>(),
                                         setting["worse_than"].get<std::string>()));
-    }
+    return worse;
+}
+
+std::string trade_summary(const Json& trade)
+{
+    std::vector<const Json*> frontier;
+    for (const Json& setting : trade["settings"])
+        if (setting["on_frontier"].get<bool>()) frontier.push_back(&setting);
     std::sort(frontier.begin(), frontier.end(),
               [](const Json* a, const Json* b) { return total_of(*a) < total_of(*b); });
     std::string text = fmt::format("the trade, {}, against {}:\n", trade["strategy"].get<std::string>(),
@@ -262,7 +297,7 @@ std::string trade_summary(const Json& trade)
                             (*setting)["name"].get<std::string>(), short_number(total_of(*setting)), error_of(*setting),
                             short_number((*setting)["hits"]["missed_per_million"]),
                             short_number((*setting)["hits"]["false_per_million"]), grouped(trade["rays"]));
-    return text + "  nobody should use: " + listed(worse) + "\n";
+    return text + "  nobody should use: " + listed(worse_settings(trade)) + "\n";
 }
 
 }  // namespace firstray::compare

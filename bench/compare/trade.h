@@ -29,10 +29,17 @@ std::vector<TradeSetting> trade_settings(const Plan& plan, const Contestant& con
 ///          "total_ms", "totals", "image", "hits", "bytes", "is_orientation", "on_frontier", "worse_than"}]}
 Json measure_trade(Contest& contest, const Contestant& contestant);
 
+/// What measure_trade() comes to, about; see Watch.
+double trade_work(const Plan& plan);
+
 /// Fills in "on_frontier" and "worse_than". A setting is worse than another that was faster in every round, by 5 % in
-/// the median, and is not less accurate (RMSE); on the frontier are those that no other beats in both. Orientation
-/// neither beats nor is beaten.
+/// the median, and is not less accurate: in RMSE, of which a per cent does not count, and in rays that miss or hit
+/// falsely. On the frontier are those that no other beats in time and is as accurate. Orientation neither beats nor is
+/// beaten.
 void judge(Json& settings);
+
+/// "NAME (worse than OTHER)" of every setting nobody should use.
+std::vector<std::string> worse_settings(const Json& trade);
 
 /// Frontier and settings nobody should use, as lines for a terminal.
 std::string trade_summary(const Json& trade);

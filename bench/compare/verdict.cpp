@@ -21,42 +21,45 @@ std::vector<const Json*> ranked(const Json& results, const std::function<bool(co
     return rows;
 }
 
-std::string sentence_of(const Json& fastest, const std::vector<std::string>& level, const Json* second,
+/// level  who cannot be told from the fastest
+std::string sentence_of(const Json& fastest, const std::vector<const Json*>& level, const Json* second,
                         const Spread& ratio, std::size_t rounds)
 {
-    const std::string name = fastest["name"];
-    const std::string time = milliseconds(fastest["times"]["total_ms"]["median"]);
-    std::string text;
-    if (level.empty())
-        text = fmt::format("{} takes {} a frame", name, time);
-    else
-        text = fmt::format("{} takes {} a frame; {} cannot be told from it in {} round{}", name, time, listed(level),
-                           rounds, rounds == 1 ? "" : "s");
+    const auto time = [](const Json& row) { return milliseconds(row["times"]["total_ms"]["median"]); };
+    std::string text = fmt::format("{} takes {} a frame{}; {}.", fastest["name"].get<std::string>(), time(fastest),
+                                   level.empty() ? "" : ", the least in the median", accuracy_sentence(fastest));
+    std::vector<std::string> names;
+    for (const Json* row : level)
+        names.push_back(fmt::format("{} ({})", (*row)["name"].get<std::string>(), time(*row)));
+    if (!level.empty())
+        text += fmt::format(" {} cannot be told from it in {} round{}.", listed(names), rounds, rounds == 1 ? "" : "s");
     if (second)
-        text += fmt::format("; {} takes {:.2f} times as long [{:.2f} to {:.2f}]", (*second)["name"].get<std::string>(),
-                            ratio.median, ratio.least, ratio.most);
-    return text + "; " + accuracy_sentence(fastest) + ".";
+        text += fmt::format(" {} takes {:.2f} times as long ({:.2f} to {:.2f} in the rounds).",
+                            (*second)["name"].get<std::string>(), ratio.median, ratio.least, ratio.most);
+    return text;
 }
 
 Json winner(const std::vector<const Json*>& rows)
 {
     if (rows.empty()) return nullptr;
     const Json& fastest = *rows.front();
-    std::vector<std::string> level;
+    std::vector<const Json*> level;
     const Json* second = nullptr;
     Spread ratio;
     for (std::size_t i = 1; i < rows.size(); ++i) {
         const Duel found = duel(fastest, *rows[i]);
         if (!found.is_clear) {
-            level.push_back((*rows[i])["name"]);
+            level.push_back(rows[i]);
         } else if (!second) {
             second = rows[i];
             ratio = found.ratio;
         }
     }
+    Json names = Json::array();
+    for (const Json* row : level) names.push_back((*row)["name"]);
     Json json = {{"fastest", fastest["name"]},
                  {"total_ms", fastest["times"]["total_ms"]["median"]},
-                 {"level", level},
+                 {"level", names},
                  {"second", second ? (*second)["name"] : Json(nullptr)},
                  {"ratio", second ? to_json(ratio) : Json(nullptr)}};
     json["sentence"] = sentence_of(fastest, level, second, ratio, by_round(fastest, "total_ms").size());

@@ -114,8 +114,8 @@ void compare_strategies(const CompareJob& job, Streams streams)
     compare::Report report;
     {
         Progress progress(streams.err, progress_style(job.progress, streams.terminal), 0);
-        const compare::Watch watch{[&](std::size_t steps) { progress.expect(steps); },
-                                   [&](const std::string& what) { progress.step(what); },
+        const compare::Watch watch{[&](double work) { progress.expect(work); },
+                                   [&](const std::string& what, double work) { progress.step(what, work); },
                                    [] { return InterruptGuard::is_interrupted(); }};
         report = compare::compare(scene, textures, plan, {job.command_line, job.scene.file}, watch);
     }

@@ -37,14 +37,22 @@ void Progress::message(std::string_view text)
     err_ << "firstray: " << text << std::endl;
 }
 
+/// "30 %, 0:12 left"; early on the share alone.
+std::string Progress::outlook(double share) const
+{
+    constexpr double early = 0.05;  // the first steps take longer or less than they seem to
+    if (share < early) return fmt::format("{} %", static_cast<int>(100.0 * share));
+    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start_;
+    return fmt::format("{} %, {} left", static_cast<int>(100.0 * share),
+                       format_duration(elapsed.count() * (1.0 / share - 1.0)));
+}
+
 /// "3/10, 30 %, 0:12 left".
 std::string Progress::standing() const
 {
-    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start_;
     const std::size_t all = std::max(frames_, done_);
     if (done_ == 0) return fmt::format("0/{}", all);
-    const double left = elapsed.count() / static_cast<double>(done_) * static_cast<double>(all - done_);
-    return fmt::format("{}/{}, {} %, {} left", done_, all, 100 * done_ / all, format_duration(left));
+    return fmt::format("{}/{}, {}", done_, all, outlook(static_cast<double>(done_) / static_cast<double>(all)));
 }
 
 void Progress::frame_done(int frame)
@@ -57,13 +65,14 @@ void Progress::frame_done(int frame)
     line_open_ = true;
 }
 
-void Progress::step(const std::string& what)
+void Progress::step(const std::string& what, double work)
 {
     constexpr std::chrono::seconds between_lines(10);
-    if (in_step_) ++done_;
-    in_step_ = true;
+    const double done = begun_;
+    begun_ += work;
     if (style_ == ProgressStyle::never) return;
-    const std::string text = fmt::format("{} ({})", what, standing());
+    const std::string text =
+        done == 0.0 ? what : fmt::format("{} ({})", what, outlook(std::min(1.0, done / std::max(work_, begun_))));
     if (style_ == ProgressStyle::rewritten) {
         err_ << "\r\x1b[K" << text << std::flush;
         line_open_ = true;

@@ -26,10 +26,10 @@ public:
 
     void frame_done(int frame);
 
-    /// More steps are to come than was thought.
-    void expect(std::size_t steps) { frames_ += steps; }
-    /// A step begins, which ends the one before it. Beside a terminal, a line about every ten seconds.
-    void step(const std::string& what);
+    /// Instead of frames: what all steps come to, in any unit.
+    void expect(double work) { work_ = work; }
+    /// A step of so much work begins, which ends the one before it. Beside a terminal, a line about every ten seconds.
+    void step(const std::string& what, double work);
 
     /// Writes a line that stays.
     void message(std::string_view text);
@@ -37,11 +37,14 @@ public:
 private:
     void clear();
     std::string standing() const;
+    /// Share done, and time left.
+    std::string outlook(double share) const;
 
     std::ostream& err_;
     ProgressStyle style_;
     std::size_t frames_, done_ = 0;
-    bool line_open_ = false, in_step_ = false;
+    double work_ = 0.0, begun_ = 0.0;  // of all steps, and of those that began
+    bool line_open_ = false;
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now(), last_line_{};
 };
 

@@ -37,20 +37,27 @@ TEST_CASE("progress is one rewritten line on a terminal, lines elsewhere, nothin
     CHECK_THROWS_AS(progress_style("sometimes", true), UsageError);
 }
 
-TEST_CASE("steps that begin tell how many have ended, on one line or on lines that are rare")
+TEST_CASE("steps that begin tell what share of the work has ended, on one line or on lines that are rare")
 {
     std::ostringstream terminal, log;
     {
         Progress rewritten(terminal, ProgressStyle::rewritten, 0), lines(log, ProgressStyle::lines, 0);
         for (Progress* progress : {&rewritten, &lines}) {
-            progress->expect(4);
-            for (const std::string what : {"a", "b", "c"}) progress->step(what);
+            progress->expect(10.0);
+            progress->step("a", 1.0);
+            progress->step("b", 6.0);
+            progress->step("c", 2.0);
+            progress->step("d", 4.0);  // more than was thought
+            progress->step("e", 1.0);
         }
     }
-    CHECK(terminal.str().find("a (0/4)") != std::string::npos);
-    CHECK(terminal.str().find("c (2/4, 50 %, 0:00 left)") != std::string::npos);
+    CHECK(terminal.str().find("a\r") != std::string::npos);
+    CHECK(terminal.str().find("b (10 %, 0:00 left)") != std::string::npos);
+    CHECK(terminal.str().find("c (70 %, 0:00 left)") != std::string::npos);
+    CHECK(terminal.str().find("d (69 %, 0:00 left)") != std::string::npos);
+    CHECK(terminal.str().find("e (92 %, 0:00 left)") != std::string::npos);
     CHECK(terminal.str().find('\n') == std::string::npos);
-    CHECK(log.str() == "firstray: a (0/4)\n");
+    CHECK(log.str() == "firstray: a\n");
 }
 
 TEST_CASE("time left is told in hours, minutes and seconds")

@@ -148,7 +148,7 @@ TEST_CASE("an interruption leaves what was finished, whole rounds alone")
         CAPTURE(steps);
         int taken = 0;
         const Json results =
-            run(scene, plan, {{}, [&](const std::string&) { ++taken; }, [&] { return taken >= steps; }});
+            run(scene, plan, {{}, [&](const std::string&, double) { ++taken; }, [&] { return taken >= steps; }});
         CHECK(results["interrupted"] == true);
         const int rounds = std::max(0, (steps - 6) / 4);
         CHECK(results["settings"]["rounds"] == rounds);
@@ -158,6 +158,25 @@ TEST_CASE("an interruption leaves what was finished, whole rounds alone")
         }
         CHECK(summary_table(results).find("(interrupted)") != std::string::npos);
         CHECK_NOTHROW(to_csv(results));
+    }
+}
+
+TEST_CASE("the work that is told before the first step is what all steps come to")
+{
+    const Scene scene = moving_square();
+    for (const int threads : {1, 2}) {
+        CAPTURE(threads);
+        Plan plan = small_plan({"grid", "lazy"});
+        plan.threads = threads;
+        plan.pictured = {0, 2};
+        plan.frameless = {1, 3};
+        plan.trade = true;
+        std::vector<double> told;
+        double begun = 0.0;
+        run(scene, plan,
+            {[&](double work) { told.push_back(work); }, [&](const std::string&, double work) { begun += work; }, {}});
+        REQUIRE(told.size() == 1);
+        CHECK(begun == doctest::Approx(told[0]));
     }
 }
 

@@ -2,11 +2,13 @@
 
 #include <doctest/doctest.h>
 
-#include <regex>
+#include <algorithm>
 
+#include "bench/compare/charts.h"
 #include "bench/compare/compare.h"
 #include "bench/compare/gnuplot.h"
 #include "bench/compare/html.h"
+#include "bench/compare/report_accuracy.h"
 #include "bench/compare/text.h"
 #include "bench/compare/trade.h"
 #include "bench/compare/verdict.h"
@@ -49,6 +51,8 @@ TEST_CASE("text is escaped for elements and attributes, bytes become base64")
     CHECK(table.html().find("<th scope=\"row\">&lt;a&gt;</th><td>1</td>") != std::string::npos);
     CHECK(table.html().find("two<br>lines") != std::string::npos);
     CHECK(table.html().find("<tr class=\"marked\">") != std::string::npos);
+    table.add({"alone"});
+    CHECK(table.html().find("<th scope=\"row\" class=\"text\" colspan=\"2\">alone</th></tr>") != std::string::npos);
 }
 
 TEST_CASE("a report of a scene named <script> holds no script, nothing from elsewhere, and says what failed")
@@ -61,7 +65,8 @@ TEST_CASE("a report of a scene named <script> holds no script, nothing from else
     CHECK(page.find("&lt;script&gt;alert(1)") != std::string::npos);
     CHECK(page.find("<b>") == std::string::npos);
     CHECK(page.find("a&amp;b.aff") != std::string::npos);
-    CHECK(page.find("failed: cannot be made") != std::string::npos);
+    CHECK(page.find("<th scope=\"row\">unmakable</th><td class=\"text\" colspan=\"13\">failed: cannot be made</td>") !=
+          std::string::npos);
     CHECK(page.find("src=\"http") == std::string::npos);
     CHECK(page.find("href=\"http") == std::string::npos);
     CHECK(page.find("src=\"data:image/png;base64,iVBORw0KGgo") != std::string::npos);
@@ -90,6 +95,69 @@ TEST_CASE("the page's numbers are those of the results document")
     }
     CHECK(report.results["verdict"] == verdict_of(report.results));
     CHECK(page.find(escaped(report.results["verdict"]["own"]["sentence"].get<std::string>())) != std::string::npos);
+}
+
+TEST_CASE("whose answers differ wins nothing: neither the verdict nor a number of rays or processors")
+{
+    Plan plan;
+    plan.contestants = {parse_contestant("grid"), {"leaky", &test::leaky, {}}};
+    plan.frames = {0, 2};
+    plan.render = {.width = 16, .height = 12, .depth = 1};
+    plan.repeat = 3;
+    const Json results = compare::compare(test::scene_of(test::moving_square), {}, plan, {"", ""}, {}).results;
+    REQUIRE(find_row(results, "leaky")->at("status") == "differs");
+    const Json& prediction = results["prediction"];
+    CHECK(prediction["strategies"].size() == 2);
+    for (const char* reigns : {"fastest_by_processors", "fastest_by_rays"}) {
+        REQUIRE(prediction[reigns].size() == 1);
+        CHECK(prediction[reigns][0]["fastest"] == "grid");
+    }
+    CHECK(prediction["break_even"].empty());
+    const std::string page = report_html(results, {});
+    for (const char* row : {"<tr class=\"marked\"><th scope=\"row\">leaky</th><td>NO</td>",
+                            "<tr><th scope=\"row\">grid</th><td>bit for bit</td>"})
+        CHECK(page.find(row) != std::string::npos);
+}
+
+TEST_CASE("speeds that are drawn have their accuracy beneath, and who has the same is named together")
+{
+    Json results = run(test::scene_of(test::moving_square)).results;
+    const std::string rays = grouped(results["strategies"][0]["accuracy"]["rays"]);
+    CHECK(accuracy_note(results).find(
+              "Accuracy, on " + rays +
+              " rays (t: 99.9th percentile) and 384 pixels: grid, obb and lazy: the reference&#39;s hits and pictures "
+              "to the last bit, 0 differ.") != std::string::npos);
+    Json& lazy = results["strategies"][2];
+    lazy["status"] = "close";
+    lazy["accuracy"]["missed_per_million"] = 12.0;
+    CHECK(accuracy_note(results).find("; lazy: 12.0 missed and 0 false hits per million, t off by 0, RMSE 0") !=
+          std::string::npos);
+    CHECK(agreement_word(lazy) == "nearly");
+}
+
+TEST_CASE("labels of a chart stand where they cover no point and no other label, or are left out")
+{
+    Json results = {{"trade", {{"settings", Json::array()}}}};
+    const auto add = [&](const char* name, double ms, double rmse, bool frontier) {
+        results["trade"]["settings"].push_back({{"name", name},
+                                                {"fault", ""},
+                                                {"is_orientation", false},
+                                                {"on_frontier", frontier},
+                                                {"total_ms", {{"median", ms}}},
+                                                {"image", {{"rmse", rmse}}}});
+    };
+    add("alone", 10.0, 1.0, true);
+    add("beside", 100.0, 0.5, true);
+    add("dot", 110.0, 0.53, false);  // where the label would begin
+    for (int i = 0; i < 6; ++i) add("crowded", 1000.0, 0.2, true);
+    const std::vector<Label> labels = trade_chart(results).labels;
+    REQUIRE(labels.size() == 9);
+    CHECK(labels[0].text == "alone");
+    CHECK_FALSE(labels[0].is_below);
+    CHECK(labels[1].text == "beside");
+    CHECK(labels[1].is_below);
+    CHECK(labels[2].text.empty());
+    CHECK(std::count_if(labels.begin() + 3, labels.end(), [](const Label& label) { return !label.text.empty(); }) == 4);
 }
 
 TEST_CASE("pictures come for the frame of most rays, structure and time where a strategy has them")
@@ -159,14 +227,22 @@ TEST_CASE("a chart's text cannot break out of gnuplot's script, and its picture 
 TEST_CASE(
     "settings are worse than others that are faster in every round and as accurate, and the frontier has the rest")
 {
-    const auto setting = [](const char* name, std::vector<double> totals, double rmse, bool orientation = false) {
-        return Json{
-            {"name", name},     {"fault", ""},      {"is_orientation", orientation},       {"on_frontier", false},
-            {"worse_than", ""}, {"totals", totals}, {"total_ms", {{"median", totals[1]}}}, {"image", {{"rmse", rmse}}}};
+    const auto setting = [](const char* name, std::vector<double> totals, double rmse, bool orientation = false,
+                            double missed = 0.0) {
+        return Json{{"name", name},
+                    {"fault", ""},
+                    {"is_orientation", orientation},
+                    {"on_frontier", false},
+                    {"worse_than", ""},
+                    {"totals", totals},
+                    {"total_ms", {{"median", totals[1]}}},
+                    {"image", {{"rmse", rmse}}},
+                    {"hits", {{"missed_per_million", missed}, {"false_per_million", 0.0}}}};
     };
-    Json settings = {setting("quick", {1, 1, 1}, 0.5), setting("good", {9, 9, 9}, 0.1),
-                     setting("bad", {10, 10, 10}, 0.2), setting("noisy", {8, 9.5, 11}, 0.1),
-                     setting("memory", {1, 1, 1}, 0.0, true)};
+    Json settings = {setting("quick", {1, 1, 1}, 0.5),        setting("good", {9, 9, 9}, 0.1),
+                     setting("bad", {10, 10, 10}, 0.2),       setting("noisy", {8, 9.5, 11}, 0.1),
+                     setting("memory", {1, 1, 1}, 0.0, true), setting("leaky", {7, 7, 7}, 0.1, false, 3.0),
+                     setting("slow", {12, 12, 12}, 0.0999)};
     judge(settings);
     const auto frontier = [&](int i) { return settings[static_cast<std::size_t>(i)]["on_frontier"].get<bool>(); };
     const auto worse = [&](int i) { return settings[static_cast<std::size_t>(i)]["worse_than"].get<std::string>(); };
@@ -178,6 +254,12 @@ TEST_CASE(
     CHECK(worse(2) == "good");
     CHECK(worse(3) == "");
     CHECK(worse(4) == "");
+    CHECK(frontier(5));  // the quickest of its error, but it misses: it does not make the others worse
+    CHECK(worse(1) == "");
+    CHECK_FALSE(frontier(6));  // a tenth of a per cent less error is none
+    CHECK(worse(6) == "good");
+    CHECK(worse_settings({{"settings", settings}}) ==
+          std::vector<std::string>{"bad (worse than good)", "slow (worse than good)"});
 }
 
 TEST_CASE("the trade measures every setting against the reference and draws it")
