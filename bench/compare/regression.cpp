@@ -116,13 +116,32 @@ void compare_rows(const Json& a, const Json& b, Changes& changes)
     compare_accuracy(a, b, changes);
 }
 
+/// What speaks for the machine rather than the code as the cause of a change.
+void note_machine(const Json& before, const Json& after, Changes& changes)
+{
+    if (before["machine"]["cpu"] != after["machine"]["cpu"]) changes.note("the machines are not the same");
+    for (const Json* run : {&before, &after})
+        if (const std::string load = load_warning(*run); !load.empty())
+            changes.note(fmt::format("the {} run: {}", run == &before ? "first" : "second", load));
+    std::vector<std::string> peers;
+    for (const Json& a : before["strategies"]) {
+        const Json* b = find_row(after, a["name"]);
+        if (!a["peer"].get<bool>() || !b || a["times"].is_null() || (*b)["times"].is_null()) continue;
+        const Json &from = a["times"]["total_ms"], &to = (*b)["times"]["total_ms"];
+        if (is_more(from, to) || is_more(to, from)) peers.push_back(a["name"]);
+    }
+    if (!peers.empty())
+        changes.note(fmt::format("{}, which {} not ours, changed too: perhaps it was the machine", listed(peers),
+                                 peers.size() == 1 ? "is" : "are"));
+}
+
 }  // namespace
 
 Json compare_runs(const Json& before, const Json& after)
 {
     check_comparable(before, after);
     Changes changes;
-    if (before["machine"]["cpu"] != after["machine"]["cpu"]) changes.note("the machines are not the same");
+    note_machine(before, after, changes);
     for (const Json* run : {&before, &after})
         if ((*run)["interrupted"].get<bool>()) changes.note("one of the runs was interrupted");
     for (const Json& a : before["strategies"]) {
@@ -151,7 +170,8 @@ std::string change_table(const Json& changes)
         text += line + "\n";
     }
     if (changes["changes"].empty()) text += "nothing changed beyond the noise\n";
-    return text + fmt::format("{} regressions\n", changes["regressions"].get<int>());
+    const int regressions = changes["regressions"];
+    return text + fmt::format("{} regression{}\n", regressions, regressions == 1 ? "" : "s");
 }
 
 }  // namespace firstray::compare

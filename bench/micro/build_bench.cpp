@@ -1,14 +1,14 @@
-// How long does each strategy take to build? A made terrain of growing size, built for the first time (`first`) and,
-// when every triangle of it deforms, for one frame after the other (`update`). Rays check every strategy before it is
-// timed.
+// How long does each strategy take to build? Made scenes of growing size, built for the first time (`first`) and, when
+// every triangle of them deforms, for one frame after the other (`update`); `first_rays` are those that a lazy
+// structure builds for, `rays` find all built. Rays check every strategy before it is timed.
 #include <benchmark/benchmark.h>
 
 #include <cmath>
 #include <iostream>
-#include <map>
+#include <tuple>
 
 #include "bench/micro/flags.h"
-#include "bench/micro/terrain.h"
+#include "bench/micro/made_scenes.h"
 #include "engine/core/errors.h"
 #include "engine/render/camera_rays.h"
 #include "engine/scene/pose.h"
@@ -19,7 +19,11 @@ namespace {
 
 constexpr const char* usage =
     "build_bench [--sizes=1000,10000,...] [--strategies=a,b] [--threads=1] [--isa=NAME] [Google Benchmark's flags]\n"
-    "Sizes are in triangles; scenes that deform have at most a million. Names read terrain_SIZE/phase/strategy.\n";
+    "Sizes are in triangles, by default from a thousand to ten million, which takes minutes and gigabytes; scenes "
+    "that\n"
+    "deform have at most a million. Names read SCENE_SIZE/phase/strategy, e.g. terrain_10000/update/lazy; the scenes "
+    "are\n"
+    "terrain, a surface, and cloud, triangles that fill a cube.\n";
 
 /// Deforming triangles take 300 bytes each.
 constexpr int most_deforming = 1'000'000;
@@ -50,7 +54,7 @@ Settings read_flags(int& argc, char** argv)
     Settings settings;
     take_flags(argc, argv, usage,
                [&](std::string_view flag, std::string_view value) { return apply(flag, value, settings); });
-    if (settings.sizes.empty()) settings.sizes = {1'000, 10'000, 100'000, 1'000'000};
+    if (settings.sizes.empty()) settings.sizes = {1'000, 10'000, 100'000, 1'000'000, 10'000'000};
     if (settings.contestants.empty())
         for (const char* name : {"grid", "obb", "lazy", "embree-low", "embree"})
             if (const StrategyEntry* entry = find_strategy(name)) settings.contestants.push_back({name, entry, {}});
@@ -58,64 +62,47 @@ Settings read_flags(int& argc, char** argv)
 }
 
 /// Scenes are made when first asked for, and the last one is kept: benchmarks of one scene follow each other.
-const Scene& terrain(int size, bool deforms)
+const Scene& scene_of(const MadeScene& kind, int size, bool deforms)
 {
-    static std::pair<int, bool> made;
+    static std::tuple<const MadeScene*, int, bool> made;
     static std::unique_ptr<Scene> scene;
-    if (!scene || made != std::pair(size, deforms)) {
+    if (const std::tuple wanted(&kind, size, deforms); !scene || made != wanted) {
         scene.reset();
-        scene = std::make_unique<Scene>(make_terrain(static_cast<std::size_t>(size), deforms));
-        made = {size, deforms};
+        scene = std::make_unique<Scene>(kind.make(static_cast<std::size_t>(size), deforms));
+        made = wanted;
     }
     return *scene;
 }
 
-std::unique_ptr<RayTile<float>> answers(const Strategy<float>& strategy, const Pose& now)
-{
-    constexpr int side = 16;
-    auto tile = std::make_unique<RayTile<float>>();
-    std::vector<glm::ivec2> pixels;
-    for (int i = 0; i < side * side; ++i) pixels.emplace_back(i % side, i / side);
-    aim(camera_rays(now, side, side), pixels, glm::dvec2(0.5), *tile);
-    strategy.closest(*tile);
-    return tile;
-}
-
-/// Throws unless a strategy's rays hit what the truth's hit, as far away, give or take the peers' rounding.
-void check(const Strategy<float>& strategy, const Strategy<float>& truth, const Pose& now, const std::string& name)
-{
-    const auto mine = answers(strategy, now), right = answers(truth, now);
-    for (int lane = 0; lane < mine->count; ++lane) {
-        const auto i = static_cast<std::size_t>(lane);
-        const bool same = mine->primitive[i] == right->primitive[i] ||
-                          std::abs(mine->t_max[i] - right->t_max[i]) < 1e-4f * right->t_max[i];
-        if (!same) throw Error(Fault::rendering, name + " gives wrong answers");
-    }
-}
-
 struct Subject {
+    const MadeScene* kind;
     int size;
     bool deforms;
     Contestant contestant;
     const Executor* executor;
 
+    const Scene& scene() const { return scene_of(*kind, size, deforms); }
+
     std::unique_ptr<Strategy<float>> make() const
     {
         StrategyOptions options{.executor = executor};
         options.own = contestant.own;
-        return contestant.entry->make(terrain(size, deforms), options);
+        return contestant.entry->make(scene(), options);
     }
     void check_first() const
     {
-        const Pose now = pose(terrain(size, deforms), 0.5);
-        const auto strategy = make(), truth = find_strategy("grid")->make(terrain(size, deforms), {});
+        const Pose now = pose(scene(), 0.5);
+        const auto strategy = make(), truth = find_strategy("grid")->make(scene(), {});
         strategy->update(now);
         truth->update(now);
-        check(*strategy, *truth, now, contestant.name);
+        const auto found = small_picture(now), right = small_picture(now);
+        strategy->closest(*found);
+        truth->closest(*right);
+        check_hits(*found, *right, contestant.name);
     }
     void report(benchmark::State& state, const Strategy<float>& strategy) const
     {
-        const auto triangles = static_cast<double>(terrain(size, deforms).triangles.size());
+        const auto triangles = static_cast<double>(scene().triangles.size());
         state.counters["Mtri_per_s"] =
             benchmark::Counter(triangles * 1e-6, benchmark::Counter::kIsIterationInvariantRate);
         state.counters["bytes_per_tri"] = static_cast<double>(strategy.report().bytes) / triangles;
@@ -125,7 +112,7 @@ struct Subject {
 void build_first(benchmark::State& state, const Subject& subject)
 {
     subject.check_first();
-    const Pose now = pose(terrain(subject.size, false), 0.0);
+    const Pose now = pose(subject.scene(), 0.0);
     std::unique_ptr<Strategy<float>> strategy;
     for (auto _ : state) {
         state.PauseTiming();
@@ -144,36 +131,41 @@ void update(benchmark::State& state, const Subject& subject)
     double time = 0.0;
     for (auto _ : state) {
         state.PauseTiming();
-        const Pose now = pose(terrain(subject.size, true), time = time > 0.9 ? 0.0 : time + 0.05);
+        const Pose now = pose(subject.scene(), time = time > 0.9 ? 0.0 : time + 0.05);
         state.ResumeTiming();
         strategy->update(now);
     }
     subject.report(state, *strategy);
 }
 
-/// A picture of 256 rays in one beam.
 void first_rays(benchmark::State& state, const Subject& subject)
 {
     subject.check_first();
-    const Pose now = pose(terrain(subject.size, false), 0.0);
+    const Pose now = pose(subject.scene(), 0.0);
+    const auto rays = small_picture(now);
     std::unique_ptr<Strategy<float>> strategy;
     for (auto _ : state) {
         state.PauseTiming();
         strategy = subject.make();
         strategy->update(now);
+        reset(*rays);
         state.ResumeTiming();
-        answers(*strategy, now);
+        strategy->closest(*rays);
     }
 }
 
 void rays_again(benchmark::State& state, const Subject& subject)
 {
     subject.check_first();
-    const Pose now = pose(terrain(subject.size, false), 0.0);
+    const Pose now = pose(subject.scene(), 0.0);
     const auto strategy = subject.make();
     strategy->update(now);
-    answers(*strategy, now);
-    for (auto _ : state) answers(*strategy, now);
+    const auto rays = small_picture(now);
+    strategy->closest(*rays);
+    for (auto _ : state) {
+        reset(*rays);
+        strategy->closest(*rays);
+    }
 }
 
 /// Throws unless the box holds the points.
@@ -185,10 +177,9 @@ void check(const obb::Obb& box, std::span<const glm::dvec3> points)
                 throw Error(Fault::rendering, "smallest_obb leaves a point out");
 }
 
-/// Points of a terrain: flat, with hills.
-void fit_box(benchmark::State& state, int size)
+void fit_box(benchmark::State& state, const MadeScene& kind, int size)
 {
-    const std::vector<glm::dvec3>& points = terrain(size, false).positions;
+    const std::vector<glm::dvec3>& points = scene_of(kind, size, false).positions;
     check(obb::smallest_obb(points), points);
     for (auto _ : state) benchmark::DoNotOptimize(obb::smallest_obb(points));
 }
@@ -199,23 +190,27 @@ void add(const std::string& name, Run run)
     benchmark::RegisterBenchmark(name.c_str(), run)->Unit(benchmark::kMillisecond)->UseRealTime();
 }
 
-void register_all(const Settings& settings, const Executor* executor)
+void register_scene(const MadeScene& kind, int size, const Settings& settings, const Executor* executor)
 {
     using State = benchmark::State;
-    for (const int size : settings.sizes) {
-        const std::string scene = "terrain_" + std::to_string(size);
-        for (const Contestant& contestant : settings.contestants) {
-            const Subject subject{size, false, contestant, executor};
-            add(scene + "/first/" + contestant.name, [=](State& state) { build_first(state, subject); });
-            add(scene + "/first_rays/" + contestant.name, [=](State& state) { first_rays(state, subject); });
-            add(scene + "/rays/" + contestant.name, [=](State& state) { rays_again(state, subject); });
-        }
-        add(scene + "/smallest_obb/obb", [=](State& state) { fit_box(state, size); });
-        for (const Contestant& contestant : settings.contestants)
-            if (size <= most_deforming)
-                add(scene + "/update/" + contestant.name,
-                    [=, subject = Subject{size, true, contestant, executor}](State& state) { update(state, subject); });
+    const std::string scene = std::string(kind.name) + "_" + std::to_string(size);
+    for (const Contestant& contestant : settings.contestants) {
+        const Subject subject{&kind, size, false, contestant, executor};
+        add(scene + "/first/" + contestant.name, [=](State& state) { build_first(state, subject); });
+        add(scene + "/first_rays/" + contestant.name, [=](State& state) { first_rays(state, subject); });
+        add(scene + "/rays/" + contestant.name, [=](State& state) { rays_again(state, subject); });
     }
+    add(scene + "/smallest_obb/obb", [&kind, size](State& state) { fit_box(state, kind, size); });
+    if (size > most_deforming) return;
+    for (const Contestant& contestant : settings.contestants)
+        add(scene + "/update/" + contestant.name,
+            [=, subject = Subject{&kind, size, true, contestant, executor}](State& state) { update(state, subject); });
+}
+
+void register_all(const Settings& settings, const Executor* executor)
+{
+    for (const MadeScene& kind : made_scenes())
+        for (const int size : settings.sizes) register_scene(kind, size, settings, executor);
 }
 
 }  // namespace

@@ -28,6 +28,7 @@ Json made_up_run()
     plan.repeat = 1;
     const Scene scene = test::scene_of(test::moving_square);
     Json results = compare::compare(scene, {}, plan, {"test", "test.aff"}, {}).results;
+    results["load_before"] = 0.0;
     for (Json& strategy : results["strategies"])
         for (const char* key : {"update_ms", "trace_ms", "structure_ms", "total_ms"})
             strategy["times"][key] = spread(9.0, 10.0, 11.0);
@@ -71,6 +72,26 @@ TEST_CASE("a time is a change where the rounds of both runs do not overlap and f
     small["strategies"][0]["times"]["update_ms"] = spread(0.010, 0.011, 0.012);
     smaller["strategies"][0]["times"]["update_ms"] = spread(0.020, 0.021, 0.022);
     CHECK(compare_runs(small, smaller)["changes"].empty());  // twice as long, but nothing in milliseconds
+}
+
+TEST_CASE("where the machine was busy, or peers changed too, that is said")
+{
+    const auto notes = [](const Json& before, const Json& after) {
+        return compare_runs(before, after)["notes"].dump();
+    };
+    const Json before = made_up_run();
+    CHECK(notes(before, before) == "[]");
+    Json busy = before;
+    busy["load_before"] = 1.5;
+    CHECK(notes(before, busy).find("the second run: other programs were at work") != std::string::npos);
+    CHECK(notes(busy, before).find("the first run: other programs were at work") != std::string::npos);
+    Json peer = before;
+    peer["strategies"][0]["peer"] = true;
+    Json slower = peer;
+    slower["strategies"][0]["times"]["total_ms"] = spread(18.0, 20.0, 22.0);
+    CHECK(notes(peer, peer) == "[]");
+    CHECK(notes(peer, slower).find("grid, which is not ours, changed too") != std::string::npos);
+    CHECK(notes(slower, peer).find("grid, which is not ours, changed too") != std::string::npos);
 }
 
 TEST_CASE("more memory, less accuracy and a strategy that now fails are regressions")
@@ -118,7 +139,7 @@ TEST_CASE("the command exits with 1 on a regression and 0 without")
     CHECK(test::call({"compare", a, a}).code == 0);
     const test::Outcome outcome = test::call({"compare", a, (folder.path() / "b").string()});
     CHECK(outcome.code == 1);
-    CHECK(outcome.out.find("worse  grid total_ms: 10.0 -> 21.0 (+110 %)\n1 regressions") != std::string::npos);
+    CHECK(outcome.out.find("worse  grid total_ms: 10.0 -> 21.0 (+110 %)\n1 regression\n") != std::string::npos);
     CHECK(test::call({"compare", b, a}).code == 0);
     CHECK(test::call({"compare", a, a + "x"}).code == 4);
 }
