@@ -7,6 +7,9 @@
 #include <string>
 
 #include "engine/core/simd.h"
+#ifdef FIRSTRAY_HAVE_EMBREE
+#include "bench/peers/embree.h"
+#endif
 
 namespace firstray {
 namespace {
@@ -68,26 +71,27 @@ Json to_json(const ChoiceReport& choices)
 Json to_json(const FrameStats& stats)
 {
     Json json = {{"frame", stats.frame},
-            {"time", stats.time},
-            {"pose_ms", stats.pose_ms},
-            {"update_ms", stats.update_ms},
-            {"trace_ms", stats.trace_ms},
-            {"total_ms", stats.total_ms()},
-            {"lazy_build_ms", stats.structure.lazy_build_ms},
-            {"rays", to_json(stats.rays)},
-            {"structure", to_json(stats.structure)},
-            {"image_hash", fmt::format("{:016x}", stats.image_hash)}};
+                 {"time", stats.time},
+                 {"pose_ms", stats.pose_ms},
+                 {"update_ms", stats.update_ms},
+                 {"trace_ms", stats.trace_ms},
+                 {"total_ms", stats.total_ms()},
+                 {"lazy_build_ms", stats.structure.lazy_build_ms},
+                 {"rays", to_json(stats.rays)},
+                 {"structure", to_json(stats.structure)},
+                 {"image_hash", fmt::format("{:016x}", stats.image_hash)}};
     if (stats.structure.choices.is_made) json["adaptive"] = to_json(stats.structure.choices);
     return json;
 }
 
 Json describe_machine()
 {
-    return {{"cpu", cpu_model()},
-            {"threads", Executor(0).threads()},
-            {"instruction_set", instruction_set()},
-            {"compiler", compiler},
-            {"version", FIRSTRAY_VERSION}};
+    Json machine = {{"cpu", cpu_model()},   {"threads", Executor(0).threads()}, {"instruction_set", instruction_set()},
+                    {"compiler", compiler}, {"version", FIRSTRAY_VERSION},      {"peers", Json::object()}};
+#ifdef FIRSTRAY_HAVE_EMBREE
+    machine["peers"]["Embree"] = peers::embree_version();
+#endif
+    return machine;
 }
 
 }  // namespace firstray

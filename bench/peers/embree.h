@@ -1,5 +1,6 @@
 #pragma once
 #include <memory>
+#include <string>
 
 #include "engine/strategy/strategy.h"
 
@@ -54,5 +55,8 @@ std::unique_ptr<Strategy<float>> make_embree_two_level(const Scene& scene, const
 /// Rays that a strategy made now would trace at once: 16, 8 or 4, by the machine and the instruction set in use; 1
 /// where Embree has no packets.
 int embree_packet_width();
+
+/// The version in use, e.g. "3.13.5".
+std::string embree_version();
 
 }  // namespace firstray::peers

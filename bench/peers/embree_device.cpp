@@ -103,6 +103,13 @@ int embree_packet_width()
     return Device(nullptr).packet_width();
 }
 
+std::string embree_version()
+{
+    const auto version = rtcGetDeviceProperty(Device(nullptr).get(), RTC_DEVICE_PROPERTY_VERSION);
+    return std::to_string(version / 10000) + "." + std::to_string(version / 100 % 100) + "." +
+           std::to_string(version % 100);
+}
+
 #ifdef __SSE__
 FlushSubnormals::FlushSubnormals() : saved_(_mm_getcsr())
 {
