@@ -35,12 +35,12 @@ void extend(std::vector<Reign>& reigns, std::size_t fastest, double from, double
         reigns.push_back({fastest, from, to});
 }
 
-/// Where the line through what both points built meets no rays at all.
-double built_without_rays(const Point& many, const Point& few)
+/// Where the line through what both points' rays took meets no rays at all.
+double fixed_part(const Point& many, const Point& few)
 {
     if (few.rays >= many.rays) return many.build_ms;
-    const double per_ray = (many.build_ms - few.build_ms) / (many.rays - few.rays);
-    return std::clamp(few.build_ms - per_ray * few.rays, 0.0, many.build_ms);
+    const double per_ray = (many.trace_ms - few.trace_ms) / (many.rays - few.rays);
+    return std::clamp(few.trace_ms - per_ray * few.rays, 0.0, many.trace_ms);
 }
 
 }  // namespace
@@ -48,8 +48,8 @@ double built_without_rays(const Point& many, const Point& few)
 Cost fit_cost(const Point& alone, const std::optional<Point>& shared, const std::optional<Point>& few)
 {
     Cost cost;
-    cost.build_ms = few ? built_without_rays(alone, *few) : alone.build_ms;
-    cost.ns_per_ray = 1e6 * std::max(0.0, alone.trace_ms - cost.build_ms) / alone.rays;
+    cost.fixed_ms = few ? fixed_part(alone, *few) : alone.build_ms;
+    cost.ns_per_ray = 1e6 * std::max(0.0, alone.trace_ms - cost.fixed_ms) / alone.rays;
     cost.update_serial_ms = alone.update_ms;
     if (shared && shared->threads > 1) {
         const double n = shared->threads;
@@ -67,7 +67,7 @@ double predicted_update_ms(const Cost& cost, double processors)
 
 double predicted_trace_ms(const Cost& cost, double processors, double rays)
 {
-    return (cost.build_ms + 1e-6 * cost.ns_per_ray * rays) / processors;
+    return (cost.fixed_ms + 1e-6 * cost.ns_per_ray * rays) / processors;
 }
 
 double predicted_total_ms(const Cost& cost, double processors, double rays)

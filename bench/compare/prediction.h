@@ -5,12 +5,12 @@
 
 namespace firstray::compare {
 
-/// What a strategy's frame takes, as a law: the update is partly shared by processors, part of the building that rays
-/// cause is the same however few rays there are, and all else is in proportion to the rays. "Rays" are primary rays;
-/// those that spring from them are in `ns_per_ray`. One processor's time.
+/// What a strategy's frame takes, as a law: the update is partly shared by processors, part of the tracing is the same
+/// however few rays there are (building, walks that rays share), and all else is in proportion to the rays. "Rays" are
+/// primary rays; those that spring from them are in `ns_per_ray`. One processor's time.
 struct Cost {
     double update_serial_ms = 0.0, update_shared_ms = 0.0;
-    double build_ms = 0.0;
+    double fixed_ms = 0.0;
     double ns_per_ray = 0.0;
 };
 
@@ -24,8 +24,8 @@ struct Point {
 };
 
 /// Fits the law to a point on one thread. Where there is one on several threads, the update's serial share follows by
-/// Amdahl's law; where there is one of few rays, what is built without regard to rays follows from the line through
-/// both, else all is taken to be.
+/// Amdahl's law; where there is one of few rays, what tracing takes without regard to rays follows from the line
+/// through both, else it is what was built.
 /// alone  on one thread, rays > 0
 /// few    on one thread, fewer rays
 /// source G. Amdahl, "Validity of the single processor approach to achieving large scale computing capabilities", 1967

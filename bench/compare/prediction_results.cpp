@@ -95,10 +95,10 @@ Json law_of(const Json& results, const Json& measured, const Cost& cost, double 
     return {{"name", measured["name"]},
             {"update_serial_ms", cost.update_serial_ms},
             {"update_shared_ms", cost.update_shared_ms},
-            {"build_ms", cost.build_ms},
+            {"fixed_ms", cost.fixed_ms},
             {"ns_per_primary_ray", cost.ns_per_ray},
             {"kinds", kinds},
-            {"other_ns_per_primary_ray", cost.ns_per_ray - searching},
+            {"other_ns_per_primary_ray", 1e6 * cost.fixed_ms / rays + cost.ns_per_ray - searching},
             {"balanced_processors", std::isfinite(balance) ? Json(balance) : Json(nullptr)},
             {"totals", totals_of(cost, rays)},
             {"checked", checked_points(measured["points"], cost)}};

@@ -25,13 +25,13 @@ std::string reign_list(const Json& reigns, const char* what)
 
 std::string law_table(const Json& results)
 {
-    HtmlTable table(with_accuracy(results, {"strategy", "update,|ms", "not|shared", "building,|ms", "ns per|primary",
+    HtmlTable table(with_accuracy(results, {"strategy", "update,|ms", "not|shared", "any rays,|ms", "ns per|primary",
                                             "balance,|CPUs", "total at 16, 32,|128 CPUs, ms"}));
     for (const Json& law : results["prediction"]["strategies"]) {
         const Json& totals = law["totals"];
         const double update = law["update_serial_ms"].get<double>() + law["update_shared_ms"].get<double>();
         add_speed_row(*find_row(results, law["name"]),
-                      {short_number(update), short_number(law["update_serial_ms"]), short_number(law["build_ms"]),
+                      {short_number(update), short_number(law["update_serial_ms"]), short_number(law["fixed_ms"]),
                        short_number(law["ns_per_primary_ray"]),
                        law["balanced_processors"].is_null() ? "∞" : short_number(law["balanced_processors"]),
                        fmt::format("{}, {}, {}", short_number(totals[4]["total_ms"]),
@@ -76,22 +76,23 @@ std::string prediction_section(const Json& results)
 {
     const Json& prediction = results["prediction"];
     std::string text = paragraph(
-        fmt::format("The law: total = update (not shared) + (update (shared) + building + ns per primary ray x rays) / "
-                    "processors. Held against {} measured points, {} threads and fewer rays, it is off by {} in the "
-                    "median and {} at most: strategies that are closer to each other than that it does not tell apart.",
-                    prediction["checked_points"].dump(), prediction["threads"].dump(),
-                    percent(prediction["median_error"]), percent(prediction["largest_error"])),
+        fmt::format(
+            "The law: total = update (not shared) + (update (shared) + what any rays take + ns per primary ray x "
+            "rays) / processors. Held against {} measured points, {} threads and fewer rays, it is off by {} in the "
+            "median and {} at most: strategies that are closer to each other than that it does not tell apart.",
+            prediction["checked_points"].dump(), prediction["threads"].dump(), percent(prediction["median_error"]),
+            percent(prediction["largest_error"])),
         "plain");
     text += reign_list(prediction["fastest_by_processors"], "number of processors, at all rays");
     text += reign_list(prediction["fastest_by_rays"],
                        "primary rays a frame, on this machine's threads (they break even in between)");
     text += break_even_table(prediction) + law_table(results);
     text += paragraph(fmt::format(
-        "Fitted to whole frames of {} primary rays on one thread, to the update on all threads, and to what the fewest "
-        "rays have built; building that grows with the rays is in their ns, as is what springs from them: shadows, "
-        "reflections, shading. Balance is the number of processors "
-        "at which tracing takes no longer than the update does on one: more hardly help where it is not shared. "
-        "Measured points are the least of three rounds.",
+        "Fitted to whole frames of {} primary rays and to the fewest rays, on one thread, and to the update on all "
+        "threads. What any rays take is the same for few and many: building, walks that rays share. What springs from "
+        "primary rays, shadows, reflections and shading, is in their ns. Balance is the number of processors at which "
+        "tracing takes no longer than the update does on one: more hardly help where it is not shared. Measured points "
+        "are the least of three rounds.",
         whole(prediction["rays"])));
     return text + check_table(results);
 }

@@ -20,6 +20,7 @@ p, li { max-width: 75ch; overflow-wrap: anywhere; }
 .answer p { margin: 0.3em 0; }
 .warning { background: var(--mark); padding: 0.6em 1em; border-left: 4px solid #d55e00; }
 .note, figcaption { color: var(--note); font-size: 0.875rem; max-width: 100ch; }
+details { margin: 0.6em 0; }
 .scroll { overflow-x: auto; max-width: 100%; }
 table { border-collapse: collapse; font-size: 0.8125rem; font-variant-numeric: tabular-nums; }
 th, td { padding: 0.3em 0.45em; text-align: right; border-bottom: 1px solid var(--line); white-space: nowrap; }

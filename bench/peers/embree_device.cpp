@@ -103,11 +103,16 @@ int embree_packet_width()
     return Device(nullptr).packet_width();
 }
 
-std::string embree_version()
+std::string Device::version() const
 {
-    const auto version = rtcGetDeviceProperty(Device(nullptr).get(), RTC_DEVICE_PROPERTY_VERSION);
+    const auto version = rtcGetDeviceProperty(device_, RTC_DEVICE_PROPERTY_VERSION);  // 31305 is 3.13.5
     return std::to_string(version / 10000) + "." + std::to_string(version / 100 % 100) + "." +
            std::to_string(version % 100);
+}
+
+std::string embree_version()
+{
+    return Device(nullptr).version();
 }
 
 #ifdef __SSE__

@@ -49,6 +49,7 @@ public:
 
     /// Rays that are traced at once without being cut into smaller packets: 16, 8 or 4; 1 where there are no packets.
     int packet_width() const;
+    std::string version() const;
 
     std::uint64_t bytes() const { return static_cast<std::uint64_t>(bytes_.load()); }
     std::uint64_t peak_bytes() const { return static_cast<std::uint64_t>(peak_.load()); }

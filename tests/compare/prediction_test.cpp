@@ -44,19 +44,22 @@ TEST_CASE("what two threads save of an update is shared by Amdahl's law")
     CHECK(predicted_trace_ms(cost, 2, 500.0) == doctest::Approx(17.5));  // building does not shrink with the rays
 }
 
-TEST_CASE("what rays have built is parted into what any ray costs and what more rays cost")
+TEST_CASE("what tracing takes is parted into what any ray costs and what more rays cost")
 {
     const Point many{.threads = 1, .rays = 1000.0, .update_ms = 1.0, .trace_ms = 50.0, .build_ms = 20.0};
-    const auto with = [&](double rays, double build) {
-        return fit_cost(many, {}, Point{.threads = 1, .rays = rays, .build_ms = build});
+    const auto with = [&](double rays, double trace) {
+        return fit_cost(many, {}, Point{.threads = 1, .rays = rays, .trace_ms = trace});
     };
-    CHECK(with(200.0, 12.0).build_ms == doctest::Approx(10.0));
-    CHECK(with(200.0, 12.0).ns_per_ray == doctest::Approx(40000.0));
-    CHECK(with(200.0, 20.0).build_ms == doctest::Approx(20.0));
-    CHECK(with(200.0, 1.0).build_ms == 0.0);    // less than in proportion: noise
-    CHECK(with(200.0, 30.0).build_ms == 20.0);  // more for fewer rays: likewise
-    CHECK(with(1000.0, 20.0).build_ms == 20.0);
-    CHECK(predicted_trace_ms(with(200.0, 12.0), 1.0, 1000.0) == doctest::Approx(50.0));
+    CHECK(with(200.0, 18.0).fixed_ms == doctest::Approx(10.0));
+    CHECK(with(200.0, 18.0).ns_per_ray == doctest::Approx(40000.0));
+    CHECK(with(200.0, 50.0).fixed_ms == doctest::Approx(50.0));
+    CHECK(with(200.0, 50.0).ns_per_ray == 0.0);
+    CHECK(with(200.0, 5.0).fixed_ms == 0.0);  // less than in proportion: noise
+    CHECK(with(200.0, 5.0).ns_per_ray == doctest::Approx(50000.0));
+    CHECK(with(200.0, 60.0).fixed_ms == 50.0);   // more for fewer rays: likewise
+    CHECK(with(1000.0, 50.0).fixed_ms == 20.0);  // one point: what was built
+    CHECK(predicted_trace_ms(with(200.0, 18.0), 1.0, 1000.0) == doctest::Approx(50.0));
+    CHECK(predicted_trace_ms(with(200.0, 18.0), 1.0, 200.0) == doctest::Approx(18.0));
 }
 
 TEST_CASE("two strategies break even where dear updates are paid back by cheap rays")

@@ -62,7 +62,7 @@ TEST_CASE("the report's predictions are the law's, computed again from its own n
             if (point["turns"] == 1) (point["threads"] == 1 ? alone : both) = point;
         const double update = law["update_serial_ms"].get<double>() + law["update_shared_ms"].get<double>();
         CHECK(update == doctest::Approx(alone["update_ms"].get<double>()));
-        const double traced = law["build_ms"].get<double>() + 1e-6 * law["ns_per_primary_ray"].get<double>() * 512.0;
+        const double traced = law["fixed_ms"].get<double>() + 1e-6 * law["ns_per_primary_ray"].get<double>() * 512.0;
         CHECK(traced == doctest::Approx(alone["trace_ms"].get<double>()));
         for (const Json& total : law["totals"]) {
             const double n = total["processors"];
@@ -80,6 +80,40 @@ TEST_CASE("the report's predictions are the law's, computed again from its own n
           doctest::Approx(*std::max_element(errors.begin(), errors.end())));
     CHECK(prediction["fastest_by_processors"][0]["from"] == 1.0);
     CHECK(prediction["fastest_by_processors"].back()["to"] == 128.0);
+}
+
+TEST_CASE("who is named fastest by rays and processors is so by the laws beside it, and break-even points are even")
+{
+    const Json results = run(test::scene_of(test::moving_square), 5, 2, {});
+    const Json& prediction = results["prediction"];
+    const double rays = prediction["rays"], threads = prediction["threads"];
+    const auto total = [&](const std::string& name, double processors, double traced) {
+        for (const Json& law : prediction["strategies"])
+            if (law["name"] == name)
+                return law["update_serial_ms"].get<double>() +
+                       (law["update_shared_ms"].get<double>() + law["fixed_ms"].get<double>() +
+                        1e-6 * law["ns_per_primary_ray"].get<double>() * traced) /
+                           processors;
+        FAIL("no law of " << name);
+        return 0.0;
+    };
+    const auto is_fastest = [&](const std::string& name, double processors, double traced) {
+        const double least = total(name, processors, traced) * (1.0 - 1e-9);
+        return total("grid", processors, traced) >= least && total("lazy", processors, traced) >= least;
+    };
+    double next = 1.0;
+    for (const Json& reign : prediction["fastest_by_processors"]) {
+        CHECK(reign["from"] == next);
+        for (; next <= reign["to"]; ++next) CHECK(is_fastest(reign["fastest"], next, rays));
+    }
+    CHECK(next == 129.0);
+    for (const Json& reign : prediction["fastest_by_rays"])
+        for (const char* end : {"from", "to"}) CHECK(is_fastest(reign["fastest"], threads, reign[end]));
+    for (const Json& even : prediction["break_even"]) {
+        const double at = even["rays"];
+        CHECK(total(even["below"], threads, at) == doctest::Approx(total(even["above"], threads, at)));
+        CHECK(total(even["below"], threads, 0.9 * at) < total(even["above"], threads, 0.9 * at));
+    }
 }
 
 TEST_CASE("frameless, all pixels have no error, fewer have more while things move, and none in a still scene")
