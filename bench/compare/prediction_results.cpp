@@ -128,15 +128,21 @@ Json break_evens(const std::vector<Cost>& costs, const std::vector<std::string>&
     return json;
 }
 
-/// Of all checked points: the median and the largest size of the error.
+/// Of all checked points: the median and the largest size of the error, and the medians of those on one thread, which
+/// differ by rays, and on several.
 void add_errors(Json& prediction)
 {
-    std::vector<double> errors;
+    std::vector<double> all, alone, shared;
     for (const Json& law : prediction["strategies"])
-        for (const Json& point : law["checked"]) errors.push_back(std::abs(point["error"].get<double>()));
-    prediction["checked_points"] = errors.size();
-    prediction["median_error"] = quantile(errors, 0.5);
-    prediction["largest_error"] = quantile(errors, 1.0);
+        for (const Json& point : law["checked"]) {
+            all.push_back(std::abs(point["error"].get<double>()));
+            (point["threads"] == 1 ? alone : shared).push_back(all.back());
+        }
+    prediction["checked_points"] = all.size();
+    prediction["median_error"] = quantile(all, 0.5);
+    prediction["median_error_one_thread"] = quantile(alone, 0.5);
+    prediction["median_error_threads"] = shared.empty() ? Json(nullptr) : Json(quantile(shared, 0.5));
+    prediction["largest_error"] = quantile(all, 1.0);
 }
 
 }  // namespace

@@ -17,9 +17,11 @@ std::string whole(const Json& value)
 std::string reign_list(const Json& reigns, const char* what)
 {
     std::vector<std::string> parts;
-    for (const Json& reign : reigns)
-        parts.push_back(fmt::format("{} from {} to {}", reign["fastest"].get<std::string>(), whole(reign["from"]),
-                                    whole(reign["to"])));
+    for (const Json& reign : reigns) {
+        const std::string from = whole(reign["from"]), to = whole(reign["to"]);
+        parts.push_back(reign["fastest"].get<std::string>() +
+                        (from == to ? fmt::format(" at {}", from) : fmt::format(" from {} to {}", from, to)));
+    }
     return parts.empty() ? "" : paragraph(fmt::format("Fastest by {}: {}.", what, listed(parts)), "plain");
 }
 
@@ -75,12 +77,17 @@ std::string break_even_table(const Json& prediction)
 std::string prediction_section(const Json& results)
 {
     const Json& prediction = results["prediction"];
+    const Json& by_threads = prediction["median_error_threads"];
+    const std::string parts = by_threads.is_null() ? ""
+                                                   : fmt::format(" ({} with fewer rays on one thread, {} on {})",
+                                                                 percent(prediction["median_error_one_thread"]),
+                                                                 percent(by_threads), prediction["threads"].dump());
     std::string text = paragraph(
         fmt::format(
             "The law: total = update (not shared) + (update (shared) + what any rays take + ns per primary ray x "
-            "rays) / processors. Held against {} measured points, {} threads and fewer rays, it is off by {} in the "
-            "median and {} at most: strategies that are closer to each other than that it does not tell apart.",
-            prediction["checked_points"].dump(), prediction["threads"].dump(), percent(prediction["median_error"]),
+            "rays) / processors. Held against {} measured points it is off by {} in the median{} and by {} at "
+            "most: strategies that are closer to each other than that it does not tell apart.",
+            prediction["checked_points"].dump(), percent(prediction["median_error"]), parts,
             percent(prediction["largest_error"])),
         "plain");
     text += reign_list(prediction["fastest_by_processors"], "number of processors, at all rays");

@@ -48,7 +48,7 @@ code { font-family: ui-monospace, "DejaVu Sans Mono", monospace; font-size: 0.85
 @media print { :root { --ink: #000; --paper: #fff; --soft: #f4f4f4; --line: #aaa; --note: #333; --mark: #eee;
     --accent: #333; } body { font-size: 10pt; } main { max-width: none; padding: 0; } .scroll { overflow: visible; }
   table { font-size: 6.5pt; } th, td { padding: 0.2em 0.35em; } th:first-child { position: static; }
-  h2, h3, .scale { break-after: avoid; } tr, .scroll, .strip { break-inside: avoid; }
+  h2, h3, .scale { break-after: avoid; } tr, .scroll, .strip, .scale { break-inside: avoid; }
   .charts { grid-template-columns: 1fr 1fr; } .triptych { max-width: 150mm; }
   .strip { grid-template-columns: repeat(4, 1fr); } }
 )";

@@ -78,6 +78,12 @@ TEST_CASE("the report's predictions are the law's, computed again from its own n
     }
     CHECK(prediction["largest_error"].get<double>() ==
           doctest::Approx(*std::max_element(errors.begin(), errors.end())));
+    CHECK(prediction["checked_points"] == errors.size());
+    const auto [least, largest] = std::minmax_element(errors.begin(), errors.end());
+    for (const char* part : {"median_error", "median_error_one_thread", "median_error_threads"}) {
+        CHECK(prediction[part].get<double>() >= *least);
+        CHECK(prediction[part].get<double>() <= *largest);
+    }
     CHECK(prediction["fastest_by_processors"][0]["from"] == 1.0);
     CHECK(prediction["fastest_by_processors"].back()["to"] == 128.0);
 }
