@@ -2,8 +2,6 @@
 
 #include <doctest/doctest.h>
 
-#include <regex>
-
 #include "bench/compare/compare.h"
 #include "bench/compare/gnuplot.h"
 #include "bench/compare/html.h"
