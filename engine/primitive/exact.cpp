@@ -30,6 +30,7 @@ class Expansion {
 public:
     void add(double value)
     {
+        if (value == 0.0) return;
         int kept = 0;
         for (int i = 0; i < count_; ++i) {
             const Two step = two_sum(value, terms_[static_cast<std::size_t>(i)]);
