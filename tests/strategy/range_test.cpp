@@ -45,12 +45,12 @@ TEST_CASE("rays from up to 5e17 away find what the list finds, in boxes too")
         Random random(seed);
         const glm::dvec3 apex = glm::vec3(random.in_cube(1.0) * 3e16);
         std::vector<TestRay> rays;
-        for (int i = 0; i < 2048; ++i) {
+        for (int i = 0; i < 512; ++i) {
             const auto target = random.below(static_cast<std::uint32_t>(targets.positions.size()));
             const glm::dvec3 from = targets.positions[target] + random.in_cube(1.0) * std::exp2(random.between(10, 58));
-            rays.push_back({i < 1024 ? glm::dvec3(glm::vec3(from)) : apex, {}});
+            rays.push_back({seed % 2 ? glm::dvec3(glm::vec3(from)) : apex, {}});
             rays.back().direction = targets.positions[target] - rays.back().origin;
-            if (i % 5 == 0) {  // along an axis the place where it arrives is known
+            if (seed % 2 && i % 5 == 0) {  // along an axis the place where it arrives is known
                 const int axis = i % 3;
                 rays.back() = {targets.positions[target], {}};
                 rays.back().direction[axis] = i % 2 ? 1.0 : -1.0;
@@ -59,7 +59,8 @@ TEST_CASE("rays from up to 5e17 away find what the list finds, in boxes too")
         }
         check_agreement(scene, now, rays, hits);
     }
-    CHECK(hits > 5000);
+    CHECK(hits > 4000);
+    MESSAGE("hits compared: " << hits);
 }
 
 TEST_CASE("a scene of 1e13 is hit as the list says, by single rays and from common apexes")
