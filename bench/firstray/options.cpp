@@ -112,17 +112,29 @@ void add_search(CLI::App& app, SearchChoice& search)
     }
 }
 
+template <class Job>
+void add_rays(CLI::App& app, Job& job)
+{
+    add_int(app, "--depth", job.depth, 0, 64, "reflections and refractions in a row; default 4");
+    add_int(app, "--spp", job.samples, 1, 4096, "samples per pixel; default 1");
+}
+
+template <class Job>
+void add_seed(CLI::App& app, Job& job)
+{
+    add(app, "--seed", job.seed, "N", "which pixels --frameless takes; default 0")
+        ->check(CLI::NonNegativeNumber)
+        ->group(seldom);
+}
+
 void add_render(CLI::App& app, RenderJob& job)
 {
     add_scene(app, job.scene);
     add(app, "--frames", job.frames, "LIST", "e.g. 12 or 0-799:10 or 0,5,10-20; default 0");
     add(app, "--size", job.size, "WxH", "picture's size; default: the scene's");
-    add_int(app, "--depth", job.depth, 0, 64, "reflections and refractions in a row; default 4");
-    add_int(app, "--spp", job.samples, 1, 4096, "samples per pixel; default 1");
+    add_rays(app, job);
     add(app, "--frameless", job.frameless, "1/X", "share of the pixels that a frame traces; default 1, all");
-    add(app, "--seed", job.seed, "N", "which pixels --frameless takes; default 0")
-        ->check(CLI::NonNegativeNumber)
-        ->group(seldom);
+    add_seed(app, job);
     add_search(app, job.search);
     add(app, "--aov", job.aovs, "LIST", "layers of an EXR: distance,primitive,group,cells,tests,time,age");
     app.add_flag("--structure", job.structure,
@@ -143,8 +155,7 @@ void add_compare(CLI::App& app, CompareJob& job)
         "e.g. grid,obb,obb+obb-top=list,embree; default all, list only where it is quick");
     add(app, "--frames", job.frames, "LIST", "as for render; default 8, spread over the animation");
     add(app, "--size", job.size, "WxH", "pictures' size; default: the scene's");
-    add_int(app, "--depth", job.depth, 0, 64, "reflections and refractions in a row; default 4");
-    add_int(app, "--spp", job.samples, 1, 4096, "samples per pixel; default 1");
+    add_rays(app, job);
     add_int(app, "--repeat", job.repeat, 1, 1000, "timed rounds through all frames; default 5");
     add_int(app, "--check-rays", job.check_rays, 0, 1 << 30,
             "rays a frame checked against list; default 0, for about a third of a second");
@@ -152,9 +163,7 @@ void add_compare(CLI::App& app, CompareJob& job)
     add(app, "--pictures", job.pictures, "LIST", "frames that the report shows; default the one of most rays");
     add(app, "--frameless", job.frameless, "LIST", "also try frameless rendering, e.g. 1,1/2,1/4,1/8,1/16,1/32,1/64");
     app.add_flag("--trade", job.trade, "also try what buys speed with accuracy, for the fastest of our own");
-    add(app, "--seed", job.seed, "N", "which pixels --frameless takes; default 0")
-        ->check(CLI::NonNegativeNumber)
-        ->group(seldom);
+    add_seed(app, job);
     add(app, "--report", job.report, "DIR", "folder for the report; default out/SCENE-report");
     app.add_flag("--json", job.json, "print the results as JSON, not as a table");
     add(app, "--progress", job.progress, "WHEN", "auto, always or never; default auto");

@@ -33,6 +33,9 @@ void for_each_triangle(int side, const Add& add)
 
 void add_static(Scene& scene, int side)
 {
+    const auto across = static_cast<std::size_t>(side);
+    scene.positions.reserve((across + 1) * (across + 1));  // a hundred million triangles fit in memory but once
+    scene.triangles.reserve(2 * across * across);
     for (int j = 0; j <= side; ++j)
         for (int i = 0; i <= side; ++i) scene.positions.push_back(corner(i, j, side, 0.0));
     for_each_triangle(side, [&](const std::array<glm::ivec2, 3>& c) {

@@ -19,9 +19,31 @@ constexpr std::uint64_t too_few_to_test = 8;
 /// A thread is not worth waking for less.
 constexpr std::size_t least_piece = 4096;
 
+/// One entry in so many is looked at before all are listed, and so many at most.
+constexpr std::size_t sample_stride = 64, largest_sample = 256;
+
 std::uint32_t cell_index(const Grid& grid, const glm::ivec3& c)
 {
     return static_cast<std::uint32_t>(c.x + grid.dims.x * (c.y + grid.dims.y * c.z));
+}
+
+/// How often an entry that reaches these cells is listed, at most: as often as a surface would be where they are many.
+std::uint64_t estimate(const CellRange& range)
+{
+    const glm::u64vec3 n(range.hi - range.lo + 1);
+    return std::min(n.x * n.y * n.z, n.x * n.y + n.y * n.z + n.z * n.x);
+}
+
+/// Whether the lists would be twice too long if all entries were like a few of them.
+bool clearly_too_long(const Grid& grid, const GridEntries& entries, std::span<const std::uint32_t> chosen,
+                      std::uint64_t most)
+{
+    const std::size_t sample = std::min(chosen.size() / sample_stride, largest_sample);
+    std::uint64_t sum = 0;
+    for (std::size_t i = 0; i < sample; ++i)
+        sum += estimate(cells_of(grid, entries.box(chosen[chosen.size() * i / sample]), entries.pad));
+    return static_cast<double>(sum) * static_cast<double>(chosen.size()) >
+           2.0 * static_cast<double>(most) * static_cast<double>(sample);
 }
 
 /// Lists entries of one piece in their cells.
@@ -41,7 +63,7 @@ public:
             list_block(triangles.subspan(first, std::min<std::size_t>(pack_size, triangles.size() - first)));
         for (auto entry = quadrics; entry != chosen.end() && piece_.estimate <= most_; ++entry) {
             const CellRange range = cells_of(grid_, entries_.box(*entry), entries_.pad);
-            add_estimate(range);
+            piece_.estimate += estimate(range);
             add_all(range, *entry);
         }
         piece_.references.resize(count_);
@@ -65,8 +87,7 @@ private:
 
     void list_wide(const CellRange& range, std::uint32_t entry)
     {
-        add_estimate(range);
-        --piece_.estimate;  // it was counted as one already
+        piece_.estimate += estimate(range) - 1;  // it was counted as one already
         if (range.cells() <= too_few_to_test) return add_all(range, entry);
         if (piece_.estimate > most_) return;
         const RootTriangle<float> t = entries_.triangle(entry);
@@ -75,12 +96,6 @@ private:
         for_each_cell(range, [&](const glm::ivec3& c) {
             if (overlap.meets(grid_.lo + grid_.cell * glm::vec3(c) - pad)) add(cell_index(grid_, c), entry);
         });
-    }
-
-    void add_estimate(const CellRange& range)
-    {
-        const glm::u64vec3 n(range.hi - range.lo + 1);
-        piece_.estimate += std::min(n.x * n.y * n.z, n.x * n.y + n.y * n.z + n.z * n.x);
     }
 
     void add_all(const CellRange& range, std::uint32_t entry)
@@ -150,6 +165,7 @@ bool bin(const Grid& grid, const GridEntries& entries, std::span<const std::uint
          const Executor* executor, BinScratch& scratch, CellLists& lists)
 {
     if (grid.cells() == 1) most = std::numeric_limits<std::uint64_t>::max();
+    if (clearly_too_long(grid, entries, chosen, most)) return false;
     const std::size_t count = std::clamp<std::size_t>(chosen.size() / least_piece, 1,
                                                       executor ? static_cast<std::size_t>(executor->threads()) : 1);
     scratch.pieces.resize(std::max(count, scratch.pieces.size()));

@@ -152,9 +152,7 @@ private:
             std::uint32_t met =
                 oriented_boxes_met(pack, among_.walk, t_enter - among_.walk.t_pad, among_.stop, entries);
             while (met != 0) {
-                int nearest = __builtin_ctz(met);
-                for (std::uint32_t rest = met & (met - 1); rest != 0; rest &= rest - 1)
-                    if (const int lane = __builtin_ctz(rest); entries[lane] < entries[nearest]) nearest = lane;
+                const int nearest = nearest_lane(met, entries);
                 met &= ~(1u << nearest);
                 if (entries[nearest] > among_.stop) break;
                 if (visits_.is_first(pack.item[nearest]) && item(pack.item[nearest], entries[nearest])) return true;

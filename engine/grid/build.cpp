@@ -53,8 +53,10 @@ void choose_grid(const Aabb& box, const GridEntries& entries, std::span<const st
     grid.lo = box.lo - entries.pad;
     const glm::vec3 size = box.size() + 2.0f * entries.pad;
     const std::uint64_t most = allowed_references(allowance, chosen.size());
+    // What lies in a cell narrower than the pad to both sides is listed in its neighbours, too.
+    const glm::ivec3 useful(glm::clamp(size / (2.0f * entries.pad), 1.0f, static_cast<float>(max_grid_dim)));
     for (;; density *= 0.25f) {
-        grid.dims = choose_grid_dims(size, chosen.size(), density);
+        grid.dims = glm::min(choose_grid_dims(size, chosen.size(), density), useful);
         grid.cell = size / glm::vec3(grid.dims);
         if (bin(grid, entries, chosen, most, executor, scratch, node.lists)) return;
     }

@@ -114,13 +114,16 @@ HWY_INLINE bool make_walk_ray(glm::dvec3 o, const glm::dvec3& d, double t_min, d
     }
     walk.shift = gone + enter;
     walk.t_pad = static_cast<float>(static_cast<double>(pad) / length);
-    walk.near = o;
+    double off = 0.0;
     for (int axis = 0; axis < 3; ++axis) {
-        walk.origin[axis] = static_cast<float>(o[axis] + enter * d[axis]);
+        const double origin = o[axis] + enter * d[axis];
+        walk.origin[axis] = static_cast<float>(origin);
+        off = std::max(off, std::abs(origin - static_cast<double>(walk.origin[axis])));
         walk.direction[axis] = static_cast<float>(d[axis]);
         const float inverse = static_cast<float>(walk.exact_inverse[axis]);
         walk.inverse[axis] = std::abs(inverse) < 1e18f ? inverse : std::copysign(1e18f, inverse);
     }
+    walk.origin_error = static_cast<float>(off + std::abs(enter) * length * crossing_error) * (1.0f + 0x1p-20f);
     walk.origin[3] = walk.direction[3] = 0.0f;
     walk.inverse[3] = 1.0f;
     return true;
@@ -157,9 +160,7 @@ struct Search {
         if (!make_walk_ray(o, d, static_cast<double>(quest.ray.t_min), static_cast<double>(quest.hit.t),
                            glm::dvec3(top.lo), glm::dvec3(top.hi()), structure->pad, walk))
             return false;
-        filter = make_filter_ray(walk.near, d, walk.exact_inverse, structure->largest, structure->blur, loose,
-                                 largest_component<double>(o));
-        filter.set_near_end(walk, structure->pad);
+        filter = make_filter_ray(walk, d, structure->largest, structure->blur, loose, largest_component<double>(o));
         update_stop();
         return true;
     }
@@ -192,24 +193,21 @@ struct Search {
         return false;
     }
 
-    /// Asks for a pack that is tested soon.
-    static HWY_INLINE void fetch_ahead(const TrianglePack& pack)
-    {
-        for (std::size_t byte = 0; byte < sizeof pack; byte += 64)
-            __builtin_prefetch(reinterpret_cast<const std::uint8_t*>(&pack) + byte);
-    }
-
     HWY_INLINE bool pack(const TrianglePack& pack)
     {
         quest.cost.add_tests(pack);
-        std::uint32_t lanes = candidates(pack, filter);
-        for (; lanes != 0; lanes &= lanes - 1) {
-            const int lane = __builtin_ctz(lanes);
+        alignas(64) float depths[pack_size];
+        std::uint32_t lanes = candidates(pack, filter, depths);
+        while (lanes != 0) {
+            const int lane = nearest_lane(lanes, depths);
+            lanes &= ~(1u << lane);
             const std::uint32_t marked = pack.id[lane];
             const PrimitiveId id = marked & ~transmitting_bit;
             if (id == quest.hit.id || !admits(quest.mask, (marked & transmitting_bit) != 0)) continue;
             const TriangleHit<Real> found = primitives.triangle(pack, lane, id, quest.hit.t);
-            if (found.hit && offer(found.t, found.u, found.v, id)) return true;
+            if (!found.hit) continue;
+            if (offer(found.t, found.u, found.v, id)) return true;
+            if (lanes != 0) lanes &= candidates(pack, filter, depths);  // many lie behind the hit
         }
         return false;
     }
@@ -241,12 +239,12 @@ struct Search {
     HWY_INLINE bool boxed(const PackBoxes& boxes, const TrianglePack* packs, float t_enter)
     {
         alignas(64) float entries[pack_size];
-        const std::uint32_t all = boxes_met(boxes, walk, t_enter - walk.t_pad, stop, entries);
-        for (std::uint32_t later = all & (all - 1); later != 0; later &= later - 1)
-            fetch_ahead(packs[__builtin_ctz(later)]);
-        for (std::uint32_t met = all; met != 0; met &= met - 1) {
-            const int lane = __builtin_ctz(met);
-            if (entries[lane] <= stop && pack(packs[lane])) return true;
+        std::uint32_t met = boxes_met(boxes, walk, t_enter - walk.t_pad, stop, entries);
+        while (met != 0) {
+            const int lane = nearest_lane(met, entries);
+            met &= ~(1u << lane);
+            if (entries[lane] > stop) break;
+            if (pack(packs[lane])) return true;
         }
         return false;
     }

@@ -20,7 +20,8 @@ RayTree<Real>::RayTree(const Strategy<Real>& strategy, const Pose& pose, std::sp
 {
     surfaces_.reserve(capacity);
     surface_weights_.reserve(capacity);
-    lit_.reserve(capacity);
+    surface_lanes_.reserve(capacity);
+    brought_.reserve(capacity);
 }
 
 template <typename Real>
@@ -87,24 +88,25 @@ template <typename Real>
 void RayTree<Real>::trace_tile(RayTile<Real>& rays, bool spawn, std::span<glm::vec3> colours)
 {
     search_.closest(rays, slots_);
-    find_surfaces(rays, colours);
-    light_surfaces(colours);
+    find_surfaces(rays);
+    light_surfaces();
+    for (std::size_t lane = 0; lane < brought_.size(); ++lane) colours[slots_[lane]] += weights_[lane] * brought_[lane];
     if (!spawn) return;
     for (std::size_t k = 0; k < surfaces_.size(); ++k) spawn_from(surfaces_[k], surface_weights_[k], surface_slots_[k]);
 }
 
 /// Rays that met nothing see the background.
 template <typename Real>
-void RayTree<Real>::find_surfaces(const RayTile<Real>& rays, std::span<glm::vec3> colours)
+void RayTree<Real>::find_surfaces(const RayTile<Real>& rays)
 {
+    brought_.assign(static_cast<std::size_t>(rays.count), pose_.scene->background);
     surfaces_.clear();
     surface_weights_.clear();
+    surface_lanes_.clear();
     for (int i = 0; i < rays.count; ++i) {
         const auto lane = static_cast<std::size_t>(i);
-        if (rays.primitive[lane] == no_primitive) {
-            colours[slots_[lane]] += weights_[lane] * pose_.scene->background;
-            continue;
-        }
+        if (rays.primitive[lane] == no_primitive) continue;
+        surface_lanes_.push_back(lane);
         surface_slots_[surfaces_.size()] = slots_[lane];
         surface_weights_.push_back(weights_[lane]);
         surfaces_.push_back(surface_at(pose_, textures_, ray_hit(rays, i)));
@@ -112,19 +114,18 @@ void RayTree<Real>::find_surfaces(const RayTile<Real>& rays, std::span<glm::vec3
 }
 
 template <typename Real>
-void RayTree<Real>::light_surfaces(std::span<glm::vec3> colours)
+void RayTree<Real>::light_surfaces()
 {
-    lit_.clear();
-    for (const Surface& surface : surfaces_) lit_.push_back(ambient_term(surface, pose_.scene->ambient));
+    const auto lit = [&](std::size_t k) -> glm::vec3& { return brought_[surface_lanes_[k]]; };
+    for (std::size_t k = 0; k < surfaces_.size(); ++k) lit(k) = ambient_term(surfaces_[k], pose_.scene->ambient);
     for (std::size_t light = 0; light < pose_.lights.size(); ++light) {
         const auto& visibility = shadows_.trace(surfaces_, surface_slots_, pose_.lights[light]);
         for (std::size_t k = 0; k < surfaces_.size(); ++k) {
             if (visibility[k] == 0.0f) continue;
             const glm::dvec3 to_light = pose_.lights[light] - surfaces_[k].point;
-            lit_[k] += visibility[k] * light_term(surfaces_[k], to_light, pose_.scene->lights[light].colour);
+            lit(k) += visibility[k] * light_term(surfaces_[k], to_light, pose_.scene->lights[light].colour);
         }
     }
-    for (std::size_t k = 0; k < surfaces_.size(); ++k) colours[surface_slots_[k]] += surface_weights_[k] * lit_[k];
 }
 
 template <typename Real>

@@ -53,8 +53,8 @@ private:
     void trace_queue(std::span<const QueuedRay> queue, bool spawn, std::span<glm::vec3> colours);
     void load(std::span<const QueuedRay> queue);
     void trace_tile(RayTile<Real>& rays, bool spawn, std::span<glm::vec3> colours);
-    void find_surfaces(const RayTile<Real>& rays, std::span<glm::vec3> colours);
-    void light_surfaces(std::span<glm::vec3> colours);
+    void find_surfaces(const RayTile<Real>& rays);
+    void light_surfaces();
     void spawn_from(const Surface& surface, const glm::vec3& weight, std::uint16_t slot);
     QueuedRay leaving(const Surface& surface, const glm::dvec3& direction, const glm::vec3& weight,
                       std::uint16_t slot) const;
@@ -69,11 +69,12 @@ private:
     RayTile<Real> primary_, secondary_;
     Slots slots_;                     ///< by ray of the tile in hand
     std::vector<glm::vec3> weights_;  ///< likewise
+    std::vector<glm::vec3> brought_;  ///< likewise: what each sees
 
     std::vector<Surface> surfaces_;  ///< what the tile in hand met; the three below are by surface
     Slots surface_slots_;
     std::vector<glm::vec3> surface_weights_;
-    std::vector<glm::vec3> lit_;
+    std::vector<std::size_t> surface_lanes_;
 
     Generation current_, next_;
 };
