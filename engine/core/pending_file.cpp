@@ -4,12 +4,13 @@
 
 #include <atomic>
 #include <cerrno>
+#include <charconv>
 #include <csignal>
 #include <fstream>
 #include <map>
-#include <regex>
 #include <set>
 #include <string>
+#include <string_view>
 #include <system_error>
 
 #include "engine/core/errors.h"
@@ -32,12 +33,24 @@ struct Owner {
     std::string target;
 };
 
-Owner owner_of(const std::string& name)
+Owner owner_of(std::string_view name)
 {
-    static const std::regex pattern(R"(\.(.+)\.([1-9][0-9]{0,8})-[0-9]+\.part)");
-    std::smatch parts;
-    if (!std::regex_match(name, parts, pattern)) return {};
-    return {static_cast<pid_t>(std::stol(parts[2])), parts[1]};
+    constexpr std::string_view ending = ".part";
+    if (!name.starts_with('.')) return {};
+    name.remove_prefix(1);
+    if (!name.ends_with(ending)) return {};
+    name.remove_suffix(ending.size());
+    const std::size_t dot = name.rfind('.');
+    if (dot == std::string_view::npos || dot == 0 || name.substr(dot + 1).starts_with('0')) return {};
+
+    const char* const end = name.data() + name.size();
+    pid_t process = 0;
+    unsigned counter = 0;
+    const auto process_read = std::from_chars(name.data() + dot + 1, end, process);
+    if (process_read.ec != std::errc{} || process < 0 || process_read.ptr == end || *process_read.ptr != '-') return {};
+    const auto counter_read = std::from_chars(process_read.ptr + 1, end, counter);
+    if (counter_read.ec != std::errc{} || counter_read.ptr != end) return {};
+    return {process, std::string(name.substr(0, dot))};
 }
 
 bool is_gone(pid_t process)

@@ -184,16 +184,20 @@ void compare(const Scene& scene, const std::vector<double>& times, const std::ve
              const StrategyOptions& options)
 {
     std::vector<Pose> poses;
-    for (const double time : times) poses.push_back(pose(scene, time));
+    std::vector<test::Expected<Real>> expected;
     const auto list = maker<Real>(*find_strategy("list"))(scene, options);
+    for (const double time : times) poses.push_back(pose(scene, time));
+    for (const Pose& now : poses) {
+        list->update(now);
+        expected.emplace_back(*list, rays);
+    }
     for (const StrategyEntry& entry : firstray::strategies()) {
         if (entry.peer || entry.name == "list") continue;
         const auto strategy = maker<Real>(entry)(scene, options_for(entry, options));
-        for (const Pose& now : poses) {
-            list->update(now);
-            strategy->update(now);
+        for (std::size_t i = 0; i < poses.size(); ++i) {
+            strategy->update(poses[i]);
             int hits = 0;
-            if (const int different = test::differences(*list, *strategy, rays, hits); different != 0)
+            if (const int different = expected[i].differences(*strategy, hits); different != 0)
                 throw Finding(std::string(entry.name) + " differs from list for " + std::to_string(different) +
                               " rays");
         }

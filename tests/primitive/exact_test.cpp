@@ -2,6 +2,8 @@
 
 #include <doctest/doctest.h>
 
+#include <utility>
+
 #include "tests/support/test_rays.h"
 
 using namespace firstray;
@@ -12,8 +14,10 @@ TEST_CASE("the exact side is the sign of an integer determinant")
     Random random(1);
     int zeros = 0;
     for (int i = 0; i < 20000; ++i) {
-        // Numbers up to 2^20, so that products of three fit into 64 bits; many determinants are zero or nearly so.
-        const auto whole = [&] { return std::floor(random.between(-0x1p20, 0x1p20)); };
+        // Numbers up to 2^20 or 2^38, so that products of three fit into 128 bits; many determinants are zero or nearly
+        // so.
+        const double most = i % 2 ? 0x1p20 : 0x1p38;
+        const auto whole = [&] { return std::floor(random.between(-most, most)); };
         const glm::dvec3 a(whole(), whole(), whole()), o(whole(), whole(), whole()), d(whole(), whole(), whole());
         glm::dvec3 b = o + (a - o) * std::floor(random.between(-2, 3)) + d * std::floor(random.between(-2, 3));
         b.x += std::floor(random.between(-1, 2));
@@ -30,6 +34,26 @@ TEST_CASE("the exact side is the sign of an integer determinant")
         REQUIRE(exact_side(b, a, o, d) == -sign);
     }
     CHECK(zeros > 1000);
+}
+
+TEST_CASE("the exact side is that of the smallest determinants that large numbers have")
+{
+    // Of Fibonacci numbers: F(k) F(k+2) - F(k+1)^2 is 1 and -1 in turn.
+    double before = 1.0, middle = 1.0, after = 2.0;
+    for (int k = 0; k < 70; ++k) {  // up to 2^49
+        const glm::dvec3 a(before, middle, 0.0), b(middle, after, 0.0);
+        const int expected = k % 2 ? -1 : 1;
+        for (const double scale : {0x1p-30, 1.0, 0x1p40}) {
+            CAPTURE(k);
+            CHECK(exact_side(a * scale, b * scale, glm::dvec3(0.0), {0.0, 0.0, scale}) == expected);
+            CHECK(exact_side(b * scale, a * scale, glm::dvec3(0.0), {0.0, 0.0, scale}) == -expected);
+            // From far away along a line through 0: what is added cancels.
+            const glm::dvec3 far(0x1p70 * scale, 0.0, 0x1p60 * scale);
+            CHECK(exact_side(a * scale, b * scale, -far, far) == expected);
+        }
+        before = std::exchange(middle, after);
+        after = before + middle;
+    }
 }
 
 TEST_CASE("the exact side tells what double cannot")

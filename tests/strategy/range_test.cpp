@@ -10,19 +10,26 @@ using namespace firstray::test;
 
 namespace {
 
-/// Hits of all strategies of ours that are not the list's.
+/// Gives all strategies of ours to `check`.
 template <typename Check>
-void with_each(const Scene& scene, const Pose& now, const StrategyOptions& options, const Check& check)
+void with_each(const Scene& scene, const Pose& now, const Check& check)
 {
-    const auto list = find_strategy("list")->make(scene, options);
-    list->update(now);
     for (const StrategyEntry& entry : strategies()) {
         if (entry.peer) continue;
         CAPTURE(entry.name);
-        const auto strategy = entry.make(scene, options);
+        const auto strategy = entry.make(scene, {});
         strategy->update(now);
-        check(*list, *strategy);
+        check(*strategy);
     }
+}
+
+/// Checks that all strategies of ours find what the list finds.
+void check_agreement(const Scene& scene, const Pose& now, const std::vector<TestRay>& rays, int& hits)
+{
+    const auto list = find_strategy("list")->make(scene, {});
+    list->update(now);
+    const Expected<float> expected(*list, rays);
+    with_each(scene, now, [&](const Strategy<float>& strategy) { CHECK(expected.differences(strategy, hits) == 0); });
 }
 
 }  // namespace
@@ -38,23 +45,22 @@ TEST_CASE("rays from up to 5e17 away find what the list finds, in boxes too")
         Random random(seed);
         const glm::dvec3 apex = glm::vec3(random.in_cube(1.0) * 3e16);
         std::vector<TestRay> rays;
-        for (int i = 0; i < 2048; ++i) {
+        for (int i = 0; i < 512; ++i) {
             const auto target = random.below(static_cast<std::uint32_t>(targets.positions.size()));
             const glm::dvec3 from = targets.positions[target] + random.in_cube(1.0) * std::exp2(random.between(10, 58));
-            rays.push_back({i < 1024 ? glm::dvec3(glm::vec3(from)) : apex, {}});
+            rays.push_back({seed % 2 ? glm::dvec3(glm::vec3(from)) : apex, {}});
             rays.back().direction = targets.positions[target] - rays.back().origin;
-            if (i % 5 == 0) {  // along an axis the place where it arrives is known
+            if (seed % 2 && i % 5 == 0) {  // along an axis the place where it arrives is known
                 const int axis = i % 3;
                 rays.back() = {targets.positions[target], {}};
                 rays.back().direction[axis] = i % 2 ? 1.0 : -1.0;
                 rays.back().origin[axis] = -rays.back().direction[axis] * std::exp2(30 + i % 29);
             }
         }
-        with_each(scene, now, {}, [&](const Strategy<float>& list, const Strategy<float>& strategy) {
-            CHECK(differences(list, strategy, rays, hits) == 0);
-        });
+        check_agreement(scene, now, rays, hits);
     }
-    CHECK(hits > 5000);
+    CHECK(hits > 4000);
+    MESSAGE("hits compared: " << hits);
 }
 
 TEST_CASE("a scene of 1e13 is hit as the list says, by single rays and from common apexes")
@@ -63,11 +69,9 @@ TEST_CASE("a scene of 1e13 is hit as the list says, by single rays and from comm
     Scene scene = random_scene(8, 1200);
     for (glm::dvec3& p : scene.positions) p *= 0x1p40;
     const Pose now = pose(scene, 0.0);
-    with_each(scene, now, {}, [&](const Strategy<float>& list, const Strategy<float>& strategy) {
-        CHECK(differences(list, strategy, awkward_rays(1, scene, 1024), hits) == 0);
-        for (const std::uint64_t seed : {2u, 3u})
-            CHECK(differences(list, strategy, rays_from(seed, scene, scene.positions[seed], 1024), hits) == 0);
-    });
+    check_agreement(scene, now, awkward_rays(1, scene, 1024), hits);
+    for (const std::uint64_t seed : {2u, 3u})
+        check_agreement(scene, now, rays_from(seed, scene, scene.positions[seed], 1024), hits);
     CHECK(hits > 5000);
 }
 
@@ -81,7 +85,7 @@ TEST_CASE("rays that start beyond 1e18 meet nothing, nor are there triangles")
     std::vector<TestRay> rays = {
         {{0, 0, 0.9e18}, {0, 0, -1}}, {{0, 0, 1.1e18}, {0, 0, -1}}, {{0, 0, 3e38}, {0, 0, -1}}};
     for (int i = 0; i < 64; ++i) rays.push_back({{0, 0, 3e38}, {0.001 * i, 0, -1}});
-    with_each(scene, now, {}, [&](const Strategy<float>&, const Strategy<float>& strategy) {
+    with_each(scene, now, [&](const Strategy<float>& strategy) {
         const auto single = make_tile<float>(rays, 0), near = make_tile<float>({{{0, 0, 0}, {0, 0, -1}}}, 0);
         CHECK_FALSE(single->common_apex);
         const auto apex = make_tile<float>(rays, 2);

@@ -1,4 +1,6 @@
 #pragma once
+#include <memory>
+#include <utility>
 #include <vector>
 
 #include "engine/strategy/strategy.h"
@@ -6,17 +8,27 @@
 
 namespace firstray::test {
 
-/// Rays whose nearest hit is not, bit for bit, the list's; or whose occlusion differs.
-/// hits  raised by how many of the rays hit something
+/// What the list finds along rays, with every mask: asked once, however many strategies are held to it.
 template <typename Real>
-int differences(const Strategy<Real>& list, const Strategy<Real>& other, const std::vector<TestRay>& rays, int& hits)
-{
-    int different = 0;
-    for (const RayMask mask : {RayMask::all, RayMask::opaque, RayMask::transmitting})
-        for (std::size_t first = 0; first < rays.size(); first += RayTile<Real>::capacity) {
-            const auto expected = make_tile<Real>(rays, first, mask), found = make_tile<Real>(rays, first, mask),
-                       any = make_tile<Real>(rays, first, mask);
-            list.closest(*expected);
+class Expected {
+public:
+    Expected(const Strategy<Real>& list, std::vector<TestRay> rays) : rays_(std::move(rays))
+    {
+        for (const RayMask mask : {RayMask::all, RayMask::opaque, RayMask::transmitting})
+            for (std::size_t first = 0; first < rays_.size(); first += RayTile<Real>::capacity) {
+                tiles_.push_back({first, make_tile<Real>(rays_, first, mask)});
+                list.closest(*tiles_.back().found);
+            }
+    }
+
+    /// Rays whose nearest hit is not, bit for bit, the list's; or whose occlusion differs.
+    /// hits  raised by how many of the rays hit something
+    int differences(const Strategy<Real>& other, int& hits) const
+    {
+        int different = 0;
+        for (const auto& [first, expected] : tiles_) {
+            const auto found = make_tile<Real>(rays_, first, expected->mask),
+                       any = make_tile<Real>(rays_, first, expected->mask);
             other.closest(*found);
             other.occluded(*any);
             for (std::size_t i = 0; i < static_cast<std::size_t>(expected->count); ++i) {
@@ -28,7 +40,23 @@ int differences(const Strategy<Real>& list, const Strategy<Real>& other, const s
                 different += !same;
             }
         }
-    return different;
+        return different;
+    }
+
+private:
+    struct Tile {
+        std::size_t first;
+        std::unique_ptr<RayTile<Real>> found;
+    };
+    std::vector<TestRay> rays_;
+    std::vector<Tile> tiles_;
+};
+
+/// The same where a single strategy is compared.
+template <typename Real>
+int differences(const Strategy<Real>& list, const Strategy<Real>& other, const std::vector<TestRay>& rays, int& hits)
+{
+    return Expected<Real>(list, rays).differences(other, hits);
 }
 
 }  // namespace firstray::test
