@@ -67,7 +67,7 @@ inline constexpr int fewest_rays = 5;
 
 /// A packet whose rays end in more columns of cells than this is no packet: its rays are quicker one by one. (Measured
 /// between 2 and 200: where cells are full, the fewer the better; where they are not, 30 is better than 8 by a tenth.)
-inline constexpr float most_columns = 8.0f;
+inline constexpr float most_columns = 2.5f;
 
 /// Which of a beam's packets were tested against the triangles met of late: a triangle that stands in many cells is
 /// tested once. Direct-mapped, so that it forgets: that costs a test, not a hit. One for each thread.
