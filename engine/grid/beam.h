@@ -66,7 +66,7 @@ inline constexpr float most_slope = 2.5f;
 inline constexpr int fewest_rays = 5;
 
 /// A packet whose rays end in more columns of cells than this is no packet: its rays are quicker one by one. (Measured
-/// between 2 and 200: where cells are full, the fewer the better; where they are not, 30 is better than 8 by a tenth.)
+/// between 1.1 and 200 on whole pictures: at 8, what mirrors show takes a sixth longer; at 1.1, everything does.)
 inline constexpr float most_columns = 2.5f;
 
 /// Which of a beam's packets were tested against the triangles met of late: a triangle that stands in many cells is
