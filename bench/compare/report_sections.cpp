@@ -167,8 +167,8 @@ std::string method_section(const Json& results)
     std::string versions = fmt::format("firstray {}", machine["version"].get<std::string>());
     for (const auto& [peer, version] : machine["peers"].items())
         versions += fmt::format(", {} {}", peer, version.get<std::string>());
-    item(fmt::format("{}; {}; {}.", versions, machine["compiler"].get<std::string>(),
-                     results["created"].get<std::string>()));
+    item(fmt::format("{}; {}; {}; {}.", versions, machine["libraries"].get<std::string>(),
+                     machine["compiler"].get<std::string>(), results["created"].get<std::string>()));
     text += "<li>Command: <code>" + escaped(results["command"].get<std::string>()) + "</code></li>\n";
     item(
         "Every frame was first rendered and checked by every strategy, which warms up, then timed in rounds; a "

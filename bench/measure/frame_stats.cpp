@@ -86,8 +86,10 @@ Json to_json(const FrameStats& stats)
 
 Json describe_machine()
 {
-    Json machine = {{"cpu", cpu_model()},   {"threads", Executor(0).threads()}, {"instruction_set", instruction_set()},
-                    {"compiler", compiler}, {"version", FIRSTRAY_VERSION},      {"peers", Json::object()}};
+    Json machine = {
+        {"cpu", cpu_model()},     {"threads", Executor(0).threads()}, {"instruction_set", instruction_set()},
+        {"compiler", compiler},   {"version", FIRSTRAY_VERSION},      {"libraries", FIRSTRAY_LIBRARIES},
+        {"peers", Json::object()}};
 #ifdef FIRSTRAY_HAVE_EMBREE
     machine["peers"]["Embree"] = peers::embree_version();
 #endif

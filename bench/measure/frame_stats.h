@@ -28,7 +28,8 @@ Json to_json(const FrameStats& stats);
 Json to_json(const RayCounts& rays);
 Json to_json(const StructureReport& report);
 
-/// The processor, the threads and instruction set it offers, the compiler, our version and the peers'.
+/// The processor, the threads and instruction set it offers, the compiler, our version, the libraries' and
+/// the peers'.
 Json describe_machine();
 
 }  // namespace firstray

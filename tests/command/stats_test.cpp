@@ -54,7 +54,7 @@ TEST_CASE("the machine is described by processor, threads, instruction set, comp
 {
     const Json machine = describe_machine();
     CHECK(machine["threads"] >= 1);
-    for (const char* name : {"cpu", "instruction_set", "compiler", "version"}) {
+    for (const char* name : {"cpu", "instruction_set", "compiler", "version", "libraries"}) {
         CAPTURE(name);
         CHECK_FALSE(machine[name].get<std::string>().empty());
     }
