@@ -89,6 +89,8 @@ void scaling_rows(Matrix& matrix)
                 sum += change<decltype(real)>(matrix, base, exponent, precision, matrix.part_of(50, 2));
             });
         const bool is_reported = precision == Precision::fast;
+        // At 2^-40 and 2^40 products of three lengths leave float's range, and t comes from double.
+        const bool is_rounding = precision == Precision::robust && sum.ids * 10'000 <= sum.hits;
         matrix.add({.id = "T5",
                     .tried = "scene and rays scaled by 2^-40, 2^-20, 2^20, 2^40, each strategy of ours against list at "
                              "scale 1, " +
@@ -97,7 +99,7 @@ void scaling_rows(Matrix& matrix)
                     .result = fmt::format("{} ids differ, {} t, of {} hits", sum.ids, sum.ts, sum.hits),
                     .target = is_reported ? "reported" : "0 ids",
                     .met = is_reported || sum.ids == 0,
-                    .known_miss = {}});
+                    .known_miss = is_rounding ? "t rounds otherwise: surfaces within that change places" : ""});
     }
 }
 
