@@ -111,6 +111,18 @@ void* operator new(std::size_t size, std::align_val_t boundary)
 {
     return firstray::command::allocate(size, static_cast<std::size_t>(boundary));
 }
+void* operator new(std::size_t size, const std::nothrow_t&) noexcept
+try {
+    return operator new(size);
+} catch (const std::bad_alloc&) {
+    return nullptr;
+}
+void* operator new(std::size_t size, std::align_val_t boundary, const std::nothrow_t&) noexcept
+try {
+    return operator new(size, boundary);
+} catch (const std::bad_alloc&) {
+    return nullptr;
+}
 void operator delete(void* memory) noexcept
 {
     firstray::command::give_back(memory);

@@ -148,7 +148,8 @@ CellRange cells_of(const Grid& grid, const Aabb& box, float pad)
 {
     const CellFinder finder(grid, pad);
     const auto cell = [&](const glm::vec3& at) {
-        return glm::ivec3(glm::clamp((at - finder.lo) * finder.scale, glm::vec3(0.0f), finder.last));
+        // in this order the first cell is what is no number's, where lengths overflow
+        return glm::ivec3(glm::min(glm::max(glm::vec3(0.0f), (at - finder.lo) * finder.scale), finder.last));
     };
     return {cell(box.lo - pad), cell(box.hi + pad)};
 }

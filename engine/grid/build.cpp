@@ -53,8 +53,10 @@ void choose_grid(const Aabb& box, const GridEntries& entries, std::span<const st
     grid.lo = box.lo - entries.pad;
     const glm::vec3 size = box.size() + 2.0f * entries.pad;
     const std::uint64_t most = allowed_references(allowance, chosen.size());
-    // What lies in a cell narrower than the pad to both sides is listed in its neighbours, too.
-    const glm::ivec3 useful(glm::clamp(size / (2.0f * entries.pad), 1.0f, static_cast<float>(max_grid_dim)));
+    // What lies in a cell narrower than the pad to both sides is listed in its neighbours, too. One cell where lengths
+    // overflow: the greater of one and what is no number is one.
+    const glm::vec3 one(1.0f), most_cells(max_grid_dim);
+    const glm::ivec3 useful(glm::min(glm::max(one, size / (2.0f * entries.pad)), most_cells));
     for (;; density *= 0.25f) {
         grid.dims = glm::min(choose_grid_dims(size, chosen.size(), density), useful);
         grid.cell = size / glm::vec3(grid.dims);

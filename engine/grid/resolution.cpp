@@ -9,7 +9,7 @@ glm::ivec3 choose_grid_dims(const glm::vec3& size, std::size_t prim_count, float
 {
     const glm::dvec3 length(size);
     const double longest = std::max({length.x, length.y, length.z});
-    if (!(longest > 0.0)) return glm::ivec3(1);
+    if (!(longest > 0.0) || !std::isfinite(length.x + length.y + length.z)) return glm::ivec3(1);
     // An axis that comes out below one cell is pinned to one, and the others share what it does not use.
     bool pinned[3] = {};
     const double cells = std::max(1.0, static_cast<double>(density) * static_cast<double>(prim_count));

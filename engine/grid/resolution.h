@@ -9,7 +9,8 @@ inline constexpr int max_grid_dim = 1024;
 
 /// Chooses how many cells a grid over a box has along each axis, so that cells are nearly cubes and there are about
 /// `density` of them per primitive: d_a * cbrt(density * prim_count / volume) along an axis of length d_a.
-/// size        lengths of the box, >= 0; an axis along which it is flat, or flatter than a cell, gets 1 cell
+/// size        lengths of the box, >= 0; an axis along which it is flat, or flatter than a cell, gets 1 cell, and so do
+///             all where a length is not finite
 /// prim_count  primitives to hold
 /// density     cells per primitive, > 0
 /// returns     cells along x, y, z, each in [1, max_grid_dim]
