@@ -1,6 +1,7 @@
 #include "engine/grid/survey.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "engine/grid/entry_kernels.h"
 
@@ -21,8 +22,10 @@ Beginning survey(const GridEntries& entries, const Executor* executor)
     begun.bounds = bounds_of(entries, executor, &largest);
     Aabb with_room = begun.bounds;
     with_room.grow(entries.room);
-    const bool too_wide = half_area(with_room.size()) > entries.most_room * half_area(begun.bounds.size());
-    if (begun.bounds.empty() || !too_wide) begun.bounds = with_room;
+    // Written so that a room that is infinite is not taken.
+    const float area = half_area(with_room.size());
+    const bool is_near = area <= entries.most_room * half_area(begun.bounds.size());
+    if (is_near || (begun.bounds.empty() && std::isfinite(area))) begun.bounds = with_room;
     if (begun.bounds.empty()) begun.bounds = {glm::vec3(0.0f), glm::vec3(0.0f)};
 
     for (const LargestTriangles::Triangle& triangle : largest.found())
