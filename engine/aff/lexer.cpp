@@ -42,14 +42,16 @@ std::string shown(const FilePlace& at)
 std::string printable(std::string_view text)
 {
     constexpr char digits[] = "0123456789abcdef";
+    constexpr std::size_t longest = 500;
     std::string result;
-    for (const char c : text) {
+    for (const char c : text.substr(0, longest)) {
         const auto byte = static_cast<unsigned char>(c);
         if (byte < 0x20 || byte >= 0x7f)
             result += {'\\', 'x', digits[byte >> 4], digits[byte & 15]};
         else
             result += c;
     }
+    if (text.size() > longest) result += "...";
     return result;
 }
 

@@ -11,7 +11,7 @@
 
 namespace firstray::inline v0 {
 
-/// Text for a message: unprintable bytes escaped, so that no name can steer a terminal.
+/// Text for a message, at most 500 characters of it: unprintable bytes escaped, so that no name can steer a terminal.
 std::string printable(std::string_view text);
 
 /// A piece of a file for a message: in double quotes, unprintable bytes escaped, at most 80 characters of it.
