@@ -37,14 +37,14 @@ struct WalkRay {
     alignas(16) float direction[4];
     alignas(16) float inverse[4];  ///< 1 / direction, limited so that no product overflows
     double shift = 0.0;
-    float t_pad = 0.0f;        ///< walk t in which the ray passes the structure's pad
+    float t_pad = 0.0f;         ///< walk t in which the ray passes the structure's pad
     float origin_error = 0.0f;  ///< by how much the origin is off, per coordinate
     glm::dvec3 exact_inverse;   ///< 1 / direction; very large where that is 0
 };
 
-/// A ray as the triangle filter sees it: it starts where the walk does, and space is sheared so that it points along its
-/// major axis, where a triangle becomes flat. Depth counts from there along that axis. The filter only chooses what the
-/// exact test looks at, so its errors are bounded instead of avoided.
+/// A ray as the triangle filter sees it: it starts where the walk does, and space is sheared so that it points along
+/// its major axis, where a triangle becomes flat. Depth counts from there along that axis. The filter only chooses what
+/// the exact test looks at, so its errors are bounded instead of avoided.
 /// source  the shear: S. Woop, C. Benthin, I. Wald, "Watertight Ray/Triangle Intersection", JCGT 2(1), 2013
 struct FilterRay {
     int x, y, z;                        ///< axes: z is the major one
@@ -109,7 +109,8 @@ HWY_INLINE std::uint32_t candidates(const TrianglePack& pack, const FilterRay& r
     std::uint32_t found = 0;
     for (int lane = 0; lane < pack_size; lane += static_cast<int>(hn::Lanes(d))) {
         const auto along = [&](int corner, int axis) HWY_ATTR { return hn::Load(d, pack.v[corner][axis] + lane); };
-        const auto z0 = hn::MulSub(along(0, ray.z), forward, start_z), z1 = hn::MulSub(along(1, ray.z), forward, start_z),
+        const auto z0 = hn::MulSub(along(0, ray.z), forward, start_z),
+                   z1 = hn::MulSub(along(1, ray.z), forward, start_z),
                    z2 = hn::MulSub(along(2, ray.z), forward, start_z);
         const auto x0 = hn::NegMulAdd(slope_x, z0, hn::Sub(along(0, ray.x), start_x));
         const auto y0 = hn::NegMulAdd(slope_y, z0, hn::Sub(along(0, ray.y), start_y));
@@ -125,11 +126,13 @@ HWY_INLINE std::uint32_t candidates(const TrianglePack& pack, const FilterRay& r
         const auto farther = hn::Max(high, hn::Neg(low)), edge = hn::Load(d, pack.edge + lane);
         // With h half an ulp of 1, a sheared corner is off by 6 h times its depth and 4 h times the edge: 2 h for each
         // coordinate and 2 h more for the product with the slope, of a corner within 2 edges of the ray, as are all of
-        // a triangle that the ray meets. Where the test sees it, its edge is longer by off at most, so the side's error is
-        // at most 12 * off * edge + 16 * off^2.
+        // a triangle that the ray meets. Where the test sees it, its edge is longer by off at most, so the side's error
+        // is at most 12 * off * edge + 16 * off^2.
         const auto off = hn::MulAdd(hn::Set(d, 0x1p-21f), hn::Add(farther, edge), base);
-        const auto error = hn::MulAdd(hn::MulAdd(hn::Set(d, 12.0f), off, hn::Set(d, ray.error_per_edge)), edge,
-                                      hn::MulAdd(hn::Mul(hn::Set(d, 16.0f), off), off, hn::Set(d, std::numeric_limits<float>::min())));
+        const auto least_error = hn::MulAdd(hn::Mul(hn::Set(d, 16.0f), off), off,
+                                            hn::Set(d, std::numeric_limits<float>::min()));
+        const auto error =
+            hn::MulAdd(hn::MulAdd(hn::Set(d, 12.0f), off, hn::Set(d, ray.error_per_edge)), edge, least_error);
         // Most of what the line meets lies behind the ray's origin or beyond its end: first by the corners' depths ...
         const auto wide = hn::MulAdd(hn::Set(d, ray.depth_error_per_edge), edge, off);
         const auto between = hn::And(hn::Le(low, hn::Add(far_end, wide)), hn::Ge(high, hn::Sub(near_end, wide)));
