@@ -149,23 +149,18 @@ template <typename Real>
 void LazyStrategy<Real>::place_groups(const Pose& pose)
 {
     there_.clear();
-    double largest = std::min(farthest_place, scenery_.largest());
+    double largest = scenery_.largest();
     for (std::uint32_t group = 1; group < scene_.groups.size(); ++group) {
         if (!pose.is_visible(scene_.groups[group]) || bounds_[group].empty()) continue;
         there_.push_back(group);
         const Transform& root_from_node = pose.root_from_node[scene_.groups[group].node];
-        const double reach = largest_coordinate(transformed(bounds_[group], root_from_node));
-        largest = std::max(largest, std::min(farthest_place, reach));
+        largest = std::max(largest, largest_coordinate(transformed(bounds_[group], root_from_node)));
     }
-    const double wide = std::max(largest * static_cast<double>(box_pad_factor), 1e-30);
-    const DAabb everywhere{glm::dvec3(-farthest_place), glm::dvec3(farthest_place)};
+    const double wide = box_pad(largest);
     std::vector<Item> items;
     for (const std::uint32_t group : there_) {
         const Transform& root_from_node = pose.root_from_node[scene_.groups[group].node];
-        // Nothing is there beyond the farthest place, and float cannot hold a box that reaches much farther.
-        const bool is_in_range = largest_coordinate(transformed(bounds_[group], root_from_node)) <= farthest_place;
-        items.push_back(is_in_range ? make_item(group, inverse(root_from_node), root_from_node, bounds_[group], wide)
-                                    : make_item(group, {}, {}, everywhere, wide));
+        items.push_back(make_item(group, inverse(root_from_node), root_from_node, bounds_[group], wide));
     }
     scenery_.place(std::move(items));
 }
@@ -190,7 +185,7 @@ void LazyStrategy<Real>::place_primitives(const Pose& pose)
         const GridStructure& top = groups_.made(everything_that_moves)->top();
         const DAabb box{top.grids[0].lo, top.grids[0].hi()};
         const double largest = std::max(static_cast<double>(top.largest), scenery_.largest());
-        items.push_back(make_item(everything_that_moves, {}, {}, box, largest * static_cast<double>(box_pad_factor)));
+        items.push_back(make_item(everything_that_moves, {}, {}, box, box_pad(largest)));
     }
     if (items.empty()) dropped_ += groups_.drop(everything_that_moves);
     scenery_.place(std::move(items));

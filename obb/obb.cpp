@@ -137,16 +137,10 @@ Item ObbStrategy<Real>::make_item_of(std::uint32_t index, const Pose& pose, doub
 {
     const Cluster& cluster = hierarchy_.clusters[index];
     std::vector<Item> items;
-    // Nothing is there beyond the farthest place, and float cannot hold a box that reaches much farther.
-    const DAabb everywhere{glm::dvec3(-farthest_place), glm::dvec3(farthest_place)};
-    bool all_in_range = true;
     for (std::uint32_t i = cluster.first_box; i < cluster.first_box + cluster.boxes; ++i) {
         const BoxPlace& place = places_[i];
         if (place.is_there)
-            items.push_back(place.largest <= farthest_place
-                                ? make_item(i, place.local_from_root, place.root_from_local, place.bounds, wide)
-                                : make_item(i, {}, {}, everywhere, wide));
-        all_in_range &= !place.is_there || place.largest <= farthest_place;
+            items.push_back(make_item(i, place.local_from_root, place.root_from_local, place.bounds, wide));
     }
     if (items.size() == 1) return items[0];
     supergrids_[index] = grid_of_items(items, false);
@@ -156,7 +150,6 @@ Item ObbStrategy<Real>::make_item_of(std::uint32_t index, const Pose& pose, doub
     box = fit_cluster(pose.root_from_node[cluster.node].linear * axes_[index], places_of(cluster));
     Item item =
         make_item(number, {glm::transpose(box.axes), glm::dvec3(0.0)}, {box.axes, glm::dvec3(0.0)}, box.bounds, wide);
-    if (!all_in_range) return make_item(number, {}, {}, everywhere, wide);
     item.bounds = {};  // those of the boxes reach less far than those of the box around them
     for (const Item& inner : items) item.bounds.grow(inner.bounds);
     return item;
@@ -165,10 +158,10 @@ Item ObbStrategy<Real>::make_item_of(std::uint32_t index, const Pose& pose, doub
 template <typename Real>
 void ObbStrategy<Real>::place_clusters(const Pose& pose)
 {
-    double largest = std::min(farthest_place, static_cast<double>(scenery_.structure.largest));
+    double largest = static_cast<double>(scenery_.structure.largest);
     for (const BoxPlace& place : places_)
-        if (place.is_there) largest = std::max(largest, std::min(farthest_place, place.largest));
-    const double wide = std::max(largest * static_cast<double>(box_pad_factor), 1e-30);
+        if (place.is_there) largest = std::max(largest, place.largest);
+    const double wide = box_pad(largest);
     std::vector<Item> items;
     for (std::uint32_t i = 0; i < hierarchy_.clusters.size(); ++i) {
         supergrids_[i] = {};

@@ -6,6 +6,7 @@
 
 #include "engine/grid/bin.h"
 #include "engine/grid/resolution.h"
+#include "engine/strategy/group_bounds.h"
 
 namespace firstray::inline v0 {
 namespace {
@@ -156,17 +157,16 @@ BoxedGrid place_items(BoxedGrid* around, std::span<const Item> items, bool as_li
 Item make_item(std::uint32_t number, const Transform& local_from_root, const Transform& root_from_local,
                const DAabb& bounds, double wide)
 {
+    const DAabb in_root = transformed(bounds, root_from_local);
+    if (!(largest_coordinate(in_root) <= farthest_place))
+        return make_item(number, {}, {}, {glm::dvec3(-farthest_place), glm::dvec3(farthest_place)}, wide);
     const glm::dvec3 middle = (bounds.lo + bounds.hi) * 0.5, half = (bounds.hi - bounds.lo) * 0.5;
     Item item{.number = number, .bounds = {}, .cube_from_root = {}};
-    const glm::dvec3 centre = root_from_local.point(middle);
     for (int axis = 0; axis < 3; ++axis) {
-        double reach = wide, row_size = 0.0;
-        for (int j = 0; j < 3; ++j) {
-            reach += std::abs(root_from_local.linear[j][axis]) * half[j];
-            row_size += std::abs(local_from_root.linear[j][axis]);
-        }
-        item.bounds.lo[axis] = static_cast<float>(centre[axis] - reach);
-        item.bounds.hi[axis] = static_cast<float>(centre[axis] + reach);
+        double row_size = 0.0;
+        for (int j = 0; j < 3; ++j) row_size += std::abs(local_from_root.linear[j][axis]);
+        item.bounds.lo[axis] = static_cast<float>(in_root.lo[axis] - wide);
+        item.bounds.hi[axis] = static_cast<float>(in_root.hi[axis] + wide);
         const double scale = 1.0 / (half[axis] + row_size * wide);
         for (int j = 0; j < 3; ++j)
             item.cube_from_root.row[axis][j] = static_cast<float>(local_from_root.linear[j][axis] * scale);

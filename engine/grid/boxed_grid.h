@@ -1,12 +1,14 @@
 #pragma once
 #include <glm/glm.hpp>
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 #include "engine/core/aabb.h"
 #include "engine/core/aligned.h"
+#include "engine/core/search_ray.h"
 #include "engine/core/transform.h"
 #include "engine/grid/grid.h"
 
@@ -71,10 +73,18 @@ BoxedGrid place_items(BoxedGrid* around, std::span<const Item> items, bool as_li
 /// places and t err by at most 50 together.
 inline constexpr float box_pad_factor = 0x1p-17f;
 
-/// An oriented box given in a system of its own.
+/// By how much boxes are widened, root lengths.
+/// largest  coordinate of all that is there
+inline double box_pad(double largest)
+{
+    return std::max(std::min(farthest_place, largest) * static_cast<double>(box_pad_factor), 1e-30);
+}
+
+/// An oriented box given in a system of its own. One that reaches out of range stands everywhere in range instead:
+/// nothing is there beyond, and float cannot hold a box that reaches much farther.
 /// local_from_root, root_from_local  inverses of each other
 /// bounds  local
-/// wide    by how much it is widened, root lengths
+/// wide    see box_pad
 Item make_item(std::uint32_t number, const Transform& local_from_root, const Transform& root_from_local,
                const DAabb& bounds, double wide);
 
