@@ -13,12 +13,57 @@ HWY_BEFORE_NAMESPACE();
 namespace firstray::inline v0 {
 namespace HWY_NAMESPACE {
 
-/// The packets of a beam in the root system that may have a ray in an oriented box before it ends.
-HWY_INLINE PacketMask packets_meeting(const Beam& root, const BoxPack& pack, int lane, PacketMask asked)
+/// Cuts a range of depths with the slab between -1 and 1, for lanes that start at a place and go on by `least` to
+/// `most` per depth: what is left are the depths at which they may be in it.
+template <class V>
+HWY_INLINE void cut_to_slab(V start, V least, V most, V& enter, V& leave)
 {
     const PackLanes d;
     const auto one = hn::Set(d, 1.0f), zero = hn::Zero(d), tiny = hn::Set(d, 1e-30f);
     const auto infinite = hn::Set(d, std::numeric_limits<float>::infinity());
+    const auto below = hn::Div(hn::Sub(one, start), hn::IfThenElse(hn::Lt(hn::Abs(least), tiny), tiny, least));
+    const auto above =
+        hn::Div(hn::Sub(hn::Neg(one), start), hn::IfThenElse(hn::Lt(hn::Abs(most), tiny), hn::Neg(tiny), most));
+    const auto falls = hn::Lt(least, hn::Neg(tiny)), rises = hn::Gt(most, tiny);
+    enter = hn::Max(enter, hn::Max(hn::IfThenElse(falls, below, zero), hn::IfThenElse(rises, above, zero)));
+    leave = hn::Min(leave, hn::Min(hn::IfThenElse(falls, infinite, below), hn::IfThenElse(rises, infinite, above)));
+}
+
+/// The oriented boxes that any packet of a beam in the root system may meet before it ends.
+HWY_INLINE std::uint32_t boxes_meeting(const BoxPack& pack, const Beam& root)
+{
+    const PackLanes d;
+    auto farthest = hn::Set(d, -std::numeric_limits<float>::infinity());
+    for (int first = 0; first < root.count; first += kernel_lanes)
+        farthest = hn::Max(farthest, hn::Load(d, root.reach + first));
+    const auto reach = hn::MaxOfLanes(d, farthest);
+    const auto lo_u = hn::Set(d, root.lo[0]), hi_u = hn::Set(d, root.hi[0]);
+    const auto lo_v = hn::Set(d, root.lo[1]), hi_v = hn::Set(d, root.hi[1]);
+    const auto apex_u = hn::Set(d, root.apex[0]), apex_v = hn::Set(d, root.apex[1]), apex_k = hn::Set(d, root.apex[2]);
+    const auto forward = hn::Set(d, root.forward);
+    std::uint32_t found = 0;
+    for (int lane = 0; lane < pack_size; lane += kernel_lanes) {
+        auto enter = hn::Zero(d), leave = reach;
+        for (int i = 0; i < 3; ++i) {
+            const auto u = hn::Load(d, pack.row[i][root.u] + lane), v = hn::Load(d, pack.row[i][root.v] + lane),
+                       along = hn::Load(d, pack.row[i][root.k] + lane), k = hn::Mul(along, forward);
+            const auto start = hn::MulAdd(
+                u, apex_u, hn::MulAdd(v, apex_v, hn::MulAdd(along, apex_k, hn::Load(d, pack.offset[i] + lane))));
+            const auto at_lo_u = hn::Mul(u, lo_u), at_hi_u = hn::Mul(u, hi_u);
+            const auto at_lo_v = hn::Mul(v, lo_v), at_hi_v = hn::Mul(v, hi_v);
+            const auto least = hn::Add(hn::Min(at_lo_u, at_hi_u), hn::Add(hn::Min(at_lo_v, at_hi_v), k));
+            const auto most = hn::Add(hn::Max(at_lo_u, at_hi_u), hn::Add(hn::Max(at_lo_v, at_hi_v), k));
+            cut_to_slab(start, least, most, enter, leave);
+        }
+        found |= bits_of(d, hn::Le(enter, leave)) << lane;
+    }
+    return found;
+}
+
+/// The packets of a beam in the root system that may have a ray in an oriented box before it ends.
+HWY_INLINE PacketMask packets_meeting(const Beam& root, const BoxPack& pack, int lane, PacketMask asked)
+{
+    const PackLanes d;
     float start[3], per_u[3], per_v[3], per_depth[3];  // of a place in the cube, by row
     for (int i = 0; i < 3; ++i) {
         per_u[i] = pack.row[i][root.u][lane];
@@ -28,7 +73,7 @@ HWY_INLINE PacketMask packets_meeting(const Beam& root, const BoxPack& pack, int
                    pack.row[i][root.k][lane] * root.apex[2];
     }
     return packets_where(root.count, asked, [&](int first) HWY_ATTR {
-        auto enter = zero, leave = hn::Load(d, root.reach + first);
+        auto enter = hn::Zero(d), leave = hn::Load(d, root.reach + first);
         for (int i = 0; i < 3; ++i) {
             const auto u = hn::Set(d, per_u[i]), v = hn::Set(d, per_v[i]), k = hn::Set(d, per_depth[i]);
             const float* const lo_u = per_u[i] > 0.0f ? root.lo_u : root.hi_u;
@@ -37,15 +82,7 @@ HWY_INLINE PacketMask packets_meeting(const Beam& root, const BoxPack& pack, int
             const float* const hi_v = per_v[i] > 0.0f ? root.hi_v : root.lo_v;
             const auto least = hn::MulAdd(u, hn::Load(d, lo_u + first), hn::MulAdd(v, hn::Load(d, lo_v + first), k));
             const auto most = hn::MulAdd(u, hn::Load(d, hi_u + first), hn::MulAdd(v, hn::Load(d, hi_v + first), k));
-            // In the slab where start + depth * least <= 1 and start + depth * most >= -1.
-            const auto at = hn::Set(d, start[i]);
-            const auto below = hn::Div(hn::Sub(one, at), hn::IfThenElse(hn::Lt(hn::Abs(least), tiny), tiny, least));
-            const auto above =
-                hn::Div(hn::Sub(hn::Neg(one), at), hn::IfThenElse(hn::Lt(hn::Abs(most), tiny), hn::Neg(tiny), most));
-            const auto falls = hn::Lt(least, hn::Neg(tiny)), rises = hn::Gt(most, tiny);
-            enter = hn::Max(enter, hn::Max(hn::IfThenElse(falls, below, zero), hn::IfThenElse(rises, above, zero)));
-            leave =
-                hn::Min(leave, hn::Min(hn::IfThenElse(falls, infinite, below), hn::IfThenElse(rises, infinite, above)));
+            cut_to_slab(hn::Set(d, start[i]), least, most, enter, leave);
         }
         return hn::Le(enter, leave);
     });
@@ -73,7 +110,7 @@ public:
     template <class Voxel, class Resolver>
     HWY_INLINE void visit(const Voxel& voxel, PacketMask packets, const Resolver& resolve)
     {
-        if (HWY_UNLIKELY(voxel.boxed != nullptr)) boxes(*voxel.boxed, packs_, packets);
+        if (HWY_UNLIKELY(voxel.boxed != nullptr)) boxes(*voxel.boxed, packs_);
         if (voxel.has_own) among_.visit(voxel.own, packets, resolve.own());
     }
 
@@ -85,17 +122,17 @@ private:
         packs_ = around;
     }
 
-    /// Sends all packets that meet them into the boxes of a voxel that the beam was not in before.
-    HWY_NOINLINE void boxes(const BoxedVoxel& voxel, const BoxPack* packs, PacketMask here)
+    /// Sends all packets that meet them into the boxes of a voxel, each box once.
+    HWY_NOINLINE void boxes(const BoxedVoxel& voxel, const BoxPack* packs)
     {
         for (std::uint32_t p = 0; p < voxel.packs; ++p) {
             const BoxPack& pack = packs[voxel.first_pack + p];
-            for (int lane = 0; lane < pack_size && pack.item[lane] != none; ++lane) {
+            for (std::uint32_t met = boxes_meeting(pack, quest_.root); met != 0; met &= met - 1) {
+                const int lane = __builtin_ctz(met);
                 const std::uint32_t number = pack.item[lane];
-                if (visits_.was_visited(number)) continue;
-                if (packets_meeting(quest_.root, pack, lane, here) == 0) continue;
-                visits_.is_first(number);
+                if (!visits_.is_first(number)) continue;
                 const PacketMask inside = packets_meeting(quest_.root, pack, lane, quest_.root.packets);
+                if (inside == 0) continue;
                 if (const BoxedGrid* inner = world_.supergrid(number))
                     walk(*inner, inside);
                 else

@@ -60,6 +60,43 @@ HWY_INLINE ApexTriangle take_apex_triangle(const BeamTriangles& triangles, const
     return p;
 }
 
+/// A triangle's plane in double, for t where float's cannot be trusted.
+struct ApexPlane {
+    glm::dvec3 normal;  ///< Ng
+    double height, span;
+};
+
+inline ApexPlane make_apex_plane(const RootTriangle<float>& t, const glm::vec3& apex)
+{
+    const glm::dvec3 v0(t.v[0]), e1 = v0 - glm::dvec3(t.v[2]), e2 = glm::dvec3(t.v[1]) - v0;
+    ApexPlane p;
+    p.normal = cross_as_written<double>(e1, e2);
+    p.height = dot_as_written<double>(p.normal, v0 - glm::dvec3(apex));
+    p.span = largest_component<double>(e1) * largest_component<double>(e2);
+    return p;
+}
+
+/// plane_t_in_double() of triangle.h for a register of rays from `first` on; not a number where that takes more.
+HWY_INLINE hn::Vec<PackLanes> plane_ts(const ApexPlane& plane, const BeamRays& rays, int first)
+{
+    const hn::CappedTag<double, pack_size / 2> d;
+    const hn::Rebind<float, decltype(d)> df;
+    alignas(64) float ts[pack_size];
+    for (int i = 0; i < kernel_lanes; i += static_cast<int>(hn::Lanes(d))) {
+        const auto load = [&](const BeamRays::Lane& from)
+                              HWY_ATTR { return hn::PromoteTo(d, hn::Load(df, from.data() + first + i)); };
+        const auto part = [&](int axis)
+                              HWY_ATTR { return hn::Mul(hn::Set(d, plane.normal[axis]), load(rays.direction[axis])); };
+        const auto slope = hn::Add(hn::Add(part(0), part(1)), part(2));
+        const auto least =
+            hn::Mul(hn::Set(d, least_slope_in_double), hn::Mul(hn::Set(d, plane.span), load(rays.length)));
+        const auto t = hn::IfThenElse(hn::Gt(hn::Abs(slope), least), hn::Div(hn::Set(d, plane.height), slope),
+                                      hn::Set(d, std::numeric_limits<double>::quiet_NaN()));
+        hn::Store(hn::DemoteTo(df, t), df, ts + i);
+    }
+    return hn::Load(PackLanes(), ts);
+}
+
 /// What sixteen rays found.
 struct PacketHits {
     std::uint32_t hits = 0;       ///< rays whose best hit this is now: written to the beam's rays
@@ -67,9 +104,11 @@ struct PacketHits {
 };
 
 /// intersect() of triangle.h for the sixteen rays from `first` on, and taking the hit where it counts.
-/// any_hit  that there is a hit is all that counts: t need not be exact where it is far enough from both ends
-template <bool any_hit>
-HWY_INLINE PacketHits test_packet(const ApexTriangle& p, PrimitiveId id, bool exact_signs, BeamRays& rays, int first)
+/// any_hit   that there is a hit is all that counts: t need not be exact where it is far enough from both ends
+/// plane_of  `plane_of()` gives the triangle's ApexPlane
+template <bool any_hit, class PlaneOf>
+HWY_INLINE PacketHits test_packet(const ApexTriangle& p, PrimitiveId id, bool exact_signs, BeamRays& rays, int first,
+                                  const PlaneOf& plane_of)
 {
     const PackLanes d;
     const hn::RebindToUnsigned<PackLanes> du;
@@ -95,7 +134,9 @@ HWY_INLINE PacketHits test_packet(const ApexTriangle& p, PrimitiveId id, bool ex
             maybe = hn::And(maybe, hn::Or(hn::Ge(least, set(0.0f)), hn::Le(most, set(0.0f))));
         if (hn::AllFalse(d, maybe)) continue;
 
-        const V slope = dot(p.normal), t = hn::Div(set(p.height), slope), t_size = hn::Abs(t);
+        const V slope = dot(p.normal);
+        V t = hn::Div(set(p.height), slope);
+        const V t_size = hn::Abs(t);
         const auto is_sloped = p.has_volume
                                    ? hn::Gt(hn::Abs(slope), hn::Mul(set(least_slope), hn::Mul(set(p.span), length)))
                                    : hn::FirstN(d, 0);
@@ -106,9 +147,13 @@ HWY_INLINE PacketHits test_packet(const ApexTriangle& p, PrimitiveId id, bool ex
         if (any_hit)
             is_placed = hn::Or(is_placed, hn::And(is_sloped, hn::And(hn::Gt(hn::Sub(t, t_error), t_min),
                                                                      hn::Lt(hn::Add(t, t_error), t_last))));
+        maybe = hn::AndNot(hn::And(hn::AndNot(is_placed, is_sloped), is_outside), maybe);
+        if (const auto is_doubtful = hn::AndNot(is_placed, maybe); !hn::AllFalse(d, is_doubtful)) {
+            t = hn::IfThenElse(is_doubtful, plane_ts(plane_of(), rays, lane), t);
+            is_placed = hn::Or(is_placed, hn::And(is_doubtful, hn::Eq(t, t)));
+        }
         const auto in_range = hn::And(hn::Gt(t, t_min), hn::Le(t, t_last));
         maybe = hn::AndNot(hn::And(is_placed, hn::Not(in_range)), maybe);
-        maybe = hn::AndNot(hn::And(hn::AndNot(is_placed, is_sloped), is_outside), maybe);
         if (hn::AllFalse(d, maybe)) continue;
 
         const auto is_certain = exact_signs

@@ -20,8 +20,6 @@ public:
         return first;
     }
 
-    bool was_visited(std::uint32_t item) const { return last_[item] == ray_; }
-
     /// Rays are numbered through on a thread, so that visits in one structure say nothing about another.
     static Visits& of_this_thread();
 

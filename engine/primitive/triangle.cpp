@@ -33,9 +33,6 @@ bool passes_inside(const RootTriangle<double>& triangle, const TriangleSides<dou
     return positive != negative;  // both: the ray lies in the triangle's plane, or the triangle has no area
 }
 
-/// Below this part of span * direction even double's quotient is worth less than the distances of the corners.
-constexpr double least_slope_in_double = 0x1p-26;
-
 double plane_t(const RootTriangle<double>& triangle, const glm::dvec3& origin, const glm::dvec3& direction)
 {
     const TrianglePlane<double> plane = triangle_plane(triangle.v, origin, direction);

@@ -71,6 +71,9 @@ inline constexpr float most_volume = 1e36f;
 /// Bound on float's error of t where it is sloped enough: this part of t plus distance / direction (64 * 50 half ulps).
 inline constexpr float quotient_error = 1.0f / 4096;
 
+/// Below this part of span * direction even double's quotient is worth less than the distances of the corners.
+inline constexpr double least_slope_in_double = 0x1p-26;
+
 /// How far float's t can be off under these two rules, relative to t: 64 * 50 * 9 half ulps of worst case (in practice
 /// a hundredth of it). Searches look this much beyond the nearest hit, so that they test whatever could beat it.
 inline constexpr float t_slack = 1.0f / 512;
