@@ -96,6 +96,29 @@ TEST_CASE("rays with a common apex find the hits that testing all primitives fin
     MESSAGE(rays_sent << " rays, hits compared: " << hits);
 }
 
+TEST_CASE("rays with a common apex close to triangles far larger than the way to them find the same hits")
+{
+    int hits = 0;
+    for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+        CAPTURE(seed);
+        Random random(seed);
+        SmallScene small;
+        for (int i = 0; i < 12; ++i)  // planes through the neighbourhood of the origin, and one seen edge-on
+            small.quad(i % 4 == 0 ? Material{.transmittance = 0.5f} : Material{}, random.in_cube(2.0),
+                       random.in_cube(900.0), random.in_cube(900.0));
+        small.quad({}, {0.0, 0.0, 0.0}, {700.0, 0.0, 0.0}, {0.0, 0.0, 700.0});
+        const Scene scene = small.build();
+        const glm::dvec3 apex = seed % 3 == 0 ? glm::dvec3(0.0) : glm::dvec3(glm::vec3(random.in_cube(3.0)));
+        const glm::dvec3 forward = random.in_cube(1.0);
+        std::vector<TestRay> rays;
+        for (int i = 0; i < 1024; ++i) rays.push_back({apex, forward + random.in_cube(seed % 2 == 0 ? 0.02 : 0.3)});
+        for (const Precision precision : {Precision::fast, Precision::robust})
+            check_agreement(scene, expected_hits<float>(scene, rays, precision), {.precision = precision}, hits);
+    }
+    CHECK(hits > 50000);
+    MESSAGE("hits compared: " << hits);
+}
+
 TEST_CASE("every shape of grid finds the same hits")
 {
     int hits = 0;
