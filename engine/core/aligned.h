@@ -43,4 +43,18 @@ struct CacheLineAllocator {
 template <typename T>
 using RawVector = std::vector<T, CacheLineAllocator<T>>;
 
+/// Makes a vector's size `count`; what it held is lost. One that grows again gets room for an eighth more, so that sizes
+/// which rise a little from frame to frame do not ask for memory every time.
+template <typename T>
+void resize_for_overwrite(RawVector<T>& vector, std::size_t count)
+{
+    vector.clear();
+    if (count > vector.capacity()) {
+        const std::size_t room = vector.capacity() == 0 ? count : count + count / 8;
+        vector = {};  // before the new memory is asked for
+        vector.reserve(room);
+    }
+    vector.resize(count);
+}
+
 }  // namespace firstray::inline v0

@@ -174,7 +174,7 @@ bool bin(const Grid& grid, const GridEntries& entries, std::span<const std::uint
     for_pieces(executor, count, 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t p = begin; p < end; ++p) {
             const std::size_t from = chosen.size() * p / count, to = chosen.size() * (p + 1) / count;
-            pieces[p].references.resize(std::max((to - from) * 3 / 2, least_piece));
+            resize_for_overwrite(pieces[p].references, std::max((to - from) * 3 / 2, least_piece));
             pieces[p].places.assign(grid.cells(), 0);
             pieces[p].estimate = 0;
             Lister(grid, entries, most, pieces[p]).list(chosen.subspan(from, to - from));
@@ -185,8 +185,7 @@ bool bin(const Grid& grid, const GridEntries& entries, std::span<const std::uint
     if (estimate > most) return false;
 
     lists.first.resize(grid.cells() + 1);
-    lists.entries.clear();
-    lists.entries.resize(place_all(pieces, lists.first));
+    resize_for_overwrite(lists.entries, place_all(pieces, lists.first));
     for_pieces(executor, count, 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t p = begin; p < end; ++p)
             for (const Reference& r : pieces[p].references) lists.entries[pieces[p].places[r.cell]++] = r.entry;

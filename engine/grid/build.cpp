@@ -153,8 +153,7 @@ void leave_out(std::span<const std::uint32_t> some, RawVector<std::uint32_t>& nu
 Beginning begin(GridEntries& entries, GridStructure& structure, RawVector<std::uint32_t>& chosen,
                 const Executor* executor)
 {
-    chosen.clear();
-    chosen.resize(entries.count());
+    resize_for_overwrite(chosen, entries.count());
     std::iota(chosen.begin(), chosen.end(), 0u);
     Beginning begun = survey(entries, executor);
     leave_out(begun.large, chosen);
@@ -167,8 +166,8 @@ Beginning begin(GridEntries& entries, GridStructure& structure, RawVector<std::u
 void fill(GridStructure& structure, const Beginning& begun, const GridEntries& entries, const Filling& filling,
           const Executor* executor)
 {
-    structure.packs.resize(filling.counts.packs);
-    structure.boxes.resize(filling.counts.boxes);
+    resize_for_overwrite(structure.packs, filling.counts.packs);
+    resize_for_overwrite(structure.boxes, filling.counts.boxes);
     structure.quadrics.resize(filling.counts.quadrics);
     fill_list(structure.large, {begun.large, begun.bounds}, entries, structure);
     for_pieces(executor, filling.lists.size(), 64, [&](std::size_t first, std::size_t last) {
@@ -182,8 +181,6 @@ void empty(GridStructure& structure)
     structure.grids.clear();
     structure.cells.clear();
     structure.lists.clear();
-    structure.packs.clear();
-    structure.boxes.clear();
     structure.quadrics.clear();
     structure.depth = structure.largest_list = 0;
     structure.references = 0;

@@ -61,8 +61,7 @@ void make_entries(const RootGeometry<Real>& geometry, const PrimitiveList& primi
 {
     const std::vector<PrimitiveId>& triangles = primitives.triangles;
     into.quadric_boxes.clear();
-    into.ids.clear();
-    into.ids.resize(triangles.size());
+    resize_for_overwrite(into.ids, triangles.size());
     into.triangles = static_cast<std::uint32_t>(triangles.size());
     for_pieces(executor, triangles.size(), 65536, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i)
