@@ -43,9 +43,9 @@ Report compare(const Scene& scene, std::span<const Texture> textures, const Plan
         contest.check();
         contest.measure();
         pictures = draw_pictures(contest);
-        sweep = measure_sweep(contest);
-        if (!plan.frameless.empty()) frameless = measure_frameless(contest);
-        if (plan.trade) trade = measure_trade(contest, contestant_to_trade(results_of(contest, facts), plan));
+        measure_sweep(contest, sweep);
+        if (!plan.frameless.empty()) measure_frameless(contest, frameless);
+        if (plan.trade) measure_trade(contest, contestant_to_trade(results_of(contest, facts), plan), trade);
     } catch (const Interrupted&) {
         facts.interrupted = true;
     }
@@ -55,7 +55,7 @@ Report compare(const Scene& scene, std::span<const Texture> textures, const Plan
         results["sweep"] = sweep;
         results["prediction"] = prediction_of(results);
     }
-    if (!frameless.is_null()) results["frameless"] = frameless;
+    if (!frameless.empty()) results["frameless"] = frameless;
     if (!trade.is_null()) results["trade"] = trade;
     return {std::move(results), std::move(pictures)};
 }

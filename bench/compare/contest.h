@@ -113,4 +113,19 @@ void Contest::attempt(std::size_t i, const Work& work)
     contenders_[i].reset();
 }
 
+/// Runs a further part of the comparison, and keeps what it measured in whole rounds when it is interrupted.
+/// part    `run()`, `rounds_done()`, `to_json()` of these rounds
+/// throws  Interrupted
+template <class Part>
+void run_and_keep(Part& part, Json& into)
+{
+    try {
+        part.run();
+    } catch (const Interrupted&) {
+        if (part.rounds_done() > 0) into = part.to_json();
+        throw;
+    }
+    into = part.to_json();
+}
+
 }  // namespace firstray::compare

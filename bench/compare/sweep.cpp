@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <map>
 #include <set>
+#include <span>
 
 #include "bench/compare/results.h"
 #include "engine/render/frameless.h"
@@ -84,12 +85,14 @@ public:
     void run()
     {
         const std::size_t arms = contest_.executor().threads() > 1 ? 2 : 1;
-        for (int round = 0; round < rounds; ++round)
+        for (; rounds_done_ < rounds; ++rounds_done_)
             for (Pair& pair : pairs_) {
-                time(pair, *pair.alone, 1, round);
-                if (arms == 2) time(pair, *pair.shared, contest_.executor().threads(), round);
+                time(pair, *pair.alone, 1, rounds_done_);
+                if (arms == 2) time(pair, *pair.shared, contest_.executor().threads(), rounds_done_);
             }
     }
+
+    int rounds_done() const { return rounds_done_; }
 
     Json to_json() const
     {
@@ -162,7 +165,8 @@ private:
     {
         const auto least = [&](double Sum::*part) {
             std::vector<double> values;
-            for (const Sum& sum : sums) values.push_back(sum.*part / static_cast<double>(frames_.size()));
+            for (const Sum& sum : std::span(sums).first(static_cast<std::size_t>(rounds_done_)))
+                values.push_back(sum.*part / static_cast<double>(frames_.size()));
             return *std::min_element(values.begin(), values.end());
         };
         return {{"threads", setting.threads},        {"turns", setting.turns},
@@ -175,6 +179,7 @@ private:
     Executor alone_;
     std::vector<FramelessTurns> turns_;
     std::vector<Pair> pairs_;
+    int rounds_done_ = 0;
     Frame picture_;
 };
 
@@ -236,23 +241,20 @@ double frameless_work_of(const Contest& contest)
     return frames * frameless_work;
 }
 
-Json measure_sweep(Contest& contest)
+void measure_sweep(Contest& contest, Json& into)
 {
     Sweep sweep(contest);
-    sweep.run();
-    return sweep.to_json();
+    run_and_keep(sweep, into);
 }
 
-Json measure_frameless(Contest& contest)
+void measure_frameless(Contest& contest, Json& into)
 {
     const Plan& plan = contest.plan();
-    Json errors = nullptr;
     contest.for_each([&](const Row& row, Contender& contender) {
-        if (!errors.is_null() || row.contestant.entry->peer) return;
-        errors = Json::array();
-        for (const int turns : plan.frameless) errors.push_back(frameless_error(contest, contender, turns));
+        if (!into.is_null() || row.contestant.entry->peer) return;
+        into = Json::array();
+        for (const int turns : plan.frameless) into.push_back(frameless_error(contest, contender, turns));
     });
-    return errors;
 }
 
 }  // namespace firstray::compare

@@ -10,10 +10,11 @@ namespace firstray::compare {
 
 /// Times everyone who is in on one thread and on all, tracing 1, 1/4, 1/16 and 1/64 of the pixels, and the shares that
 /// the plan asks for, in up to two of the plan's frames.
-/// returns  {"frames", "strategies": [{"name", "points": [{"threads", "turns", "rays", "update_ms", "trace_ms",
-///          "build_ms"}], "ns_per_ray": {kind}}]}: the least over rounds, which noise touches least, of means over
-///          frames
-Json measure_sweep(Contest& contest);
+/// into  becomes {"frames", "strategies": [{"name", "points": [{"threads", "turns", "rays", "update_ms", "trace_ms",
+///       "build_ms"}], "ns_per_ray": {kind}}]}: the least over rounds, which noise touches least, of means over frames;
+///       when interrupted, over whole rounds, if there are any
+/// throws  Interrupted
+void measure_sweep(Contest& contest, Json& into);
 
 /// What measure_sweep() and measure_frameless() come to; see Watch.
 double sweep_work(const Contest& contest);
@@ -26,7 +27,9 @@ Json prediction_of(const Json& results);
 
 /// Renders frames in a row, frameless, and compares the last ones with whole frames of the same times. The error does
 /// not depend on the strategy; the first of our own that is in renders.
-/// returns  [{"turns", "frames", "is_refreshed", "image", "worst_rmse"}]; null where nobody can render
-Json measure_frameless(Contest& contest);
+/// into  null; becomes [{"turns", "frames", "is_refreshed", "image", "worst_rmse"}], unless nobody can render; when
+///       interrupted, those that are finished
+/// throws  Interrupted
+void measure_frameless(Contest& contest, Json& into);
 
 }  // namespace firstray::compare

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <span>
 
 #include "bench/compare/results.h"
 #include "engine/render/frameless.h"
@@ -61,12 +62,14 @@ public:
 
     void run()
     {
-        const int rounds = rounds_of(contest_.plan());
         for (const std::size_t f : frames_) check(f);
-        for (int round = 0; round < rounds; ++round)
+        for (; rounds_done_ < rounds_of(contest_.plan()); ++rounds_done_)
             for (const std::size_t f : frames_)
-                for (Entry& entry : entries_) attempt(entry, [&] { time(entry, f, static_cast<std::size_t>(round)); });
+                for (Entry& entry : entries_)
+                    attempt(entry, [&] { time(entry, f, static_cast<std::size_t>(rounds_done_)); });
     }
+
+    int rounds_done() const { return rounds_done_; }
 
     Json to_json() const
     {
@@ -166,7 +169,7 @@ private:
         entry.sums[round].structure = stats.structure;
     }
 
-    static Json json_of(const Entry& entry)
+    Json json_of(const Entry& entry) const
     {
         Json json = {{"name", entry.setting.name},
                      {"fault", entry.fault},
@@ -175,7 +178,8 @@ private:
                      {"worse_than", ""}};
         if (!entry.fault.empty()) return json;
         std::vector<double> update, trace, total;
-        for (const FrameStats& sum : entry.sums) {
+        const auto rounds = std::span(entry.sums).first(static_cast<std::size_t>(rounds_done_));
+        for (const FrameStats& sum : rounds) {
             update.push_back(sum.update_ms);
             trace.push_back(sum.trace_ms);
             total.push_back(sum.total_ms());
@@ -189,7 +193,7 @@ private:
                         {"missed_per_million", entry.hits.per_million(entry.hits.missed)},
                         {"false_per_million", entry.hits.per_million(entry.hits.invented)},
                         {"t_error_p999", quantile(entry.hits.t_errors, 0.999)}};
-        json["bytes"] = entry.sums.back().structure.bytes;
+        json["bytes"] = rounds.back().structure.bytes;
         return json;
     }
 
@@ -199,6 +203,7 @@ private:
     TradeSetting reference_;
     std::unique_ptr<Contender> truth_;
     std::vector<Entry> entries_;
+    int rounds_done_ = 0;
     Frame picture_;
 };
 
@@ -211,11 +216,10 @@ double trade_work(const Plan& plan)
     return static_cast<double>(std::min(plan.frames.size(), most_frames)) * (1 + rounds_of(plan)) * work;
 }
 
-Json measure_trade(Contest& contest, const Contestant& contestant)
+void measure_trade(Contest& contest, const Contestant& contestant, Json& into)
 {
     Trade trade(contest, contestant);
-    trade.run();
-    return trade.to_json();
+    run_and_keep(trade, into);
 }
 
 }  // namespace firstray::compare

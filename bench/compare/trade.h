@@ -25,9 +25,11 @@ std::vector<TradeSetting> trade_settings(const Plan& plan, const Contestant& con
 
 /// Renders two frames with every setting, in turns, and compares them with the reference: double precision, all
 /// reflections, 16 samples, whole frames.
-/// returns  {"strategy", "reference", "frames", "rays", "settings": [{"name", "fault", "update_ms", "trace_ms",
-///          "total_ms", "totals", "image", "hits", "bytes", "is_orientation", "on_frontier", "worse_than"}]}
-Json measure_trade(Contest& contest, const Contestant& contestant);
+/// into  becomes {"strategy", "reference", "frames", "rays", "settings": [{"name", "fault", "update_ms", "trace_ms",
+///       "total_ms", "totals", "image", "hits", "bytes", "is_orientation", "on_frontier", "worse_than"}]}; when
+///       interrupted, from whole rounds, if there are any
+/// throws  Interrupted
+void measure_trade(Contest& contest, const Contestant& contestant, Json& into);
 
 /// What measure_trade() comes to, about; see Watch.
 double trade_work(const Plan& plan);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bench/compare/report.h"
 #include "bench/compare/table.h"
 #include "bench/compare/verdict.h"
 #include "tests/compare/broken_strategies.h"
@@ -159,6 +160,34 @@ TEST_CASE("an interruption leaves what was finished, whole rounds alone")
         CHECK(summary_table(results).find("(interrupted)") != std::string::npos);
         CHECK_NOTHROW(to_csv(results));
     }
+}
+
+TEST_CASE("an interruption leaves whole rounds of what comes after the strategies, too")
+{
+    const Scene scene = moving_square();
+    Plan plan = small_plan({"grid", "lazy"});
+    plan.repeat = 3;
+    plan.frameless = {1, 3};
+    plan.trade = true;
+    const auto run_until = [&](const std::string& begin) {
+        bool stop = false;
+        const Json results =
+            run(scene, plan,
+                {{}, [&](const std::string& what, double) { stop |= what.starts_with(begin); }, [&] { return stop; }});
+        CHECK(results["interrupted"] == true);
+        CHECK_NOTHROW(report_html(results, {}));
+        return results;
+    };
+    CHECK(!run_until("rays and threads, round 1").contains("sweep"));
+    const Json swept = run_until("rays and threads, round 2");
+    CHECK(swept["sweep"]["strategies"].size() == 2);
+    CHECK(swept.contains("prediction"));
+    CHECK(!swept.contains("frameless"));
+    CHECK(run_until("frameless 1/3")["frameless"].size() == 1);
+    CHECK(!run_until("trade, frame").contains("trade"));
+    CHECK(!run_until("trade, round 1").contains("trade"));
+    const Json traded = run_until("trade, round 3")["trade"];
+    for (const Json& setting : traded["settings"]) CHECK(setting["totals"].size() == 2);
 }
 
 TEST_CASE("the work that is told before the first step is what all steps come to")
