@@ -8,6 +8,7 @@ build=$root/build
 required_packages=(g++ cmake ninja-build pkg-config libtbb-dev libglm-dev libhwy-dev libopenimageio-dev libcli11-dev
     libfmt-dev nlohmann-json3-dev doctest-dev libbenchmark-dev)
 optional_packages=(libembree-dev gnuplot-nox)  # a peer to measure against; charts in reports
+sanitizer_packages=(clang libclang-rt-14-dev)
 
 # Says what is going on, and how long it has been.
 tell() {

@@ -13,7 +13,7 @@ namespace {
 struct TestedRow {
     std::string id, tried, test;  ///< test: its name, or a pattern
     std::uint64_t n;
-    std::string target;
+    std::string target, program = "firstray_tests";
 };
 
 const TestedRow tested[] = {
@@ -28,6 +28,16 @@ const TestedRow tested[] = {
     {"T12", "engines in one process, a render that fails in the middle: same pictures afterwards",
      "two engines*,a render that*", 2, "same"},
     {"T14", "lazy: whichever allocation fails while rays fly, the hits are the same", "lazy: whichever*", 2844, "same"},
+    {"T14", "whichever allocation of a run fails: a clean end or the same pictures", "whichever allocation of a run*",
+     2724, "one of them", "firstray_command_tests"},
+    {"T14", "killed at any moment: whole frames only; resumed, the same as undisturbed", "killed at any moment*", 59,
+     "same", "firstray_command_tests"},
+    {"T16", "files of bad input: message with file:line:column and exit code", "every file of bad input*", 245, "exact",
+     "firstray_command_tests"},
+    {"T16", "ways out of the scene's folder: nothing read outside", "files outside*,a link that*", 26, "none",
+     "firstray_command_tests"},
+    {"T17", "inputs that fuzzing found or began with, replayed on every target",
+     "whatever fuzzing*,bad input, and good*", 5, "no harm", "firstray_command_tests"},
 };
 
 /// What a test run said with MESSAGE, in one line.
@@ -49,7 +59,7 @@ void tested_rows(Matrix& matrix)
     for (const TestedRow& row : tested) {
         if (matrix.part() < 1.0) continue;
         const Ended ended = run_program(fmt::format("'{}' -nc -ns -s=false '-tc={}'",
-                                                    (matrix.programs() / "tests/firstray_tests").string(), row.test));
+                                                    (matrix.programs() / "tests" / row.program).string(), row.test));
         const bool ran =
             ended.out.find("test cases: 0") == std::string::npos && ended.out.find("| 0 passed") == std::string::npos;
         const std::string said = messages(ended.out);
