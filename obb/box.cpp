@@ -5,6 +5,7 @@
 #include <limits>
 #include <new>
 
+#include "engine/core/search_ray.h"
 #include "engine/grid/entry_kernels.h"
 #include "obb/smallest_obb.h"
 
@@ -63,7 +64,7 @@ double size_of(const glm::dmat3& linear)
 double blur_of(const glm::dmat3& local_from_root, double largest)
 {
     constexpr double epsilon = std::numeric_limits<float>::epsilon();
-    return size_of(local_from_root) * largest * epsilon;
+    return size_of(local_from_root) * std::min(largest, farthest_place) * epsilon;  // nothing is met beyond
 }
 
 GridOptions BoxMaker::shape_of(std::size_t primitives) const

@@ -1,5 +1,7 @@
 #include "bench/measure/recorded_rays.h"
 
+#include <cmath>
+
 namespace firstray {
 
 const char* name_of(RayKind kind)
@@ -78,10 +80,26 @@ void RayRecorder<Real>::write_down(RayKind kind, RayQuery query, const RayTile<R
 }
 
 template <typename Real>
+void RayRecorder<Real>::update(const Pose& pose)
+{
+    eye_ = typename RayTile<Real>::Vec(pose.camera.eye);
+    asked_.update(pose);
+}
+
+/// Rays that go straight through surfaces come from the eye too, but their directions are as long as the way there.
+template <typename Real>
+bool RayRecorder<Real>::is_primary(const RayTile<Real>& tile) const
+{
+    constexpr Real rounding = Real(1e-5);
+    return tile.common_apex && tile.apex == eye_ && tile.count > 0 &&
+           std::abs(glm::length(tile.direction_of(0)) - 1) < rounding;
+}
+
+template <typename Real>
 void RayRecorder<Real>::closest(RayTile<Real>& tile) const
 {
     const RayKind kind = tile.mask == RayMask::transmitting ? RayKind::shadow
-                         : tile.common_apex                 ? RayKind::primary
+                         : is_primary(tile)                 ? RayKind::primary
                                                             : RayKind::secondary;
     write_down(kind, RayQuery::closest, tile);
     asked_.closest(tile);

@@ -88,15 +88,17 @@ public:
     /// rays  must outlive what is recorded
     void record_to(RecordedRays* rays) { rays_ = rays; }
 
-    void update(const Pose& pose) override { asked_.update(pose); }
+    void update(const Pose& pose) override;
     void closest(RayTile<Real>& tile) const override;
     void occluded(RayTile<Real>& tile) const override;
     StructureReport report() const override { return asked_.report(); }
 
 private:
     void write_down(RayKind kind, RayQuery query, const RayTile<Real>& tile) const;
+    bool is_primary(const RayTile<Real>& tile) const;
 
     Strategy<Real>& asked_;
+    typename RayTile<Real>::Vec eye_{0};
     RecordedRays* rays_ = nullptr;
     mutable std::mutex mutex_;
 };

@@ -48,7 +48,7 @@ HWY_INLINE void load_rays(const RayTile<float>& tile, const std::int32_t* lanes,
     for (int first = 0; first < rays.packets * packet_size; first += kernel_lanes) {
         const auto to = static_cast<std::size_t>(first);
         const bool is_whole = first + kernel_lanes <= count;
-        const std::int32_t* from = lanes + first;
+        const std::int32_t* from = lanes ? lanes + first : nullptr;
         if (!is_whole) {
             for (int i = 0; i < kernel_lanes; ++i) {
                 const int ray = std::min(first + i, count - 1);

@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -12,6 +13,9 @@ namespace firstray::inline v0 {
 
 /// Follows the rays that spring from a tile of primary rays, all rays of one depth before the next. For one thread;
 /// owns all buffers, so that tracing allocates nothing once they have grown. Large: keep it on the heap.
+///
+/// What a plane mirrors of rays from one point comes from that point's mirror image: such rays are searched together,
+/// as beams, and so are those that go straight through surfaces.
 ///
 /// A pixel's colour is a sum in an order that only its own rays decide: by depth, reflected before transmitted rays,
 /// and their parents' order. So it does not depend on which pixels share a tile.
@@ -39,25 +43,30 @@ public:
 private:
     using Vec = typename RayTile<Real>::Vec;
 
+    static constexpr std::uint32_t alone = 0xffffffffu;
     struct QueuedRay {
-        Vec origin, direction;
-        glm::vec3 weight;  ///< share of what the ray sees that the pixel gets
-        std::uint16_t slot;
+        Vec origin{0}, direction{0};
+        Real t_min = 0;
+        glm::vec3 weight{0.0f};        ///< share of what the ray sees that the pixel gets
+        std::uint32_t family = alone;  ///< index of the apex that it has in common with others
+        std::uint32_t parent = 0;      ///< its number in the generation before
+        std::uint16_t slot = 0;
     };
     struct Generation {
         std::vector<QueuedRay> reflected, transmitted;
+        std::vector<Vec> apexes;  ///< of families
         bool empty() const { return reflected.empty() && transmitted.empty(); }
         void clear();
     };
-
-    void trace_queue(std::span<const QueuedRay> queue, bool spawn, std::span<glm::vec3> colours);
-    void load(std::span<const QueuedRay> queue);
-    void trace_tile(RayTile<Real>& rays, bool spawn, std::span<glm::vec3> colours);
-    void find_surfaces(const RayTile<Real>& rays);
-    void light_surfaces();
-    void spawn_from(const Surface& surface, const glm::vec3& weight, std::uint16_t slot);
-    QueuedRay leaving(const Surface& surface, const glm::dvec3& direction, const glm::vec3& weight,
-                      std::uint16_t slot) const;
+    void trace_queue(std::span<QueuedRay> queue, std::uint32_t first_number, bool spawn);
+    void sort_by_family(std::span<QueuedRay> queue);
+    std::size_t end_of_tile(std::span<const QueuedRay> queue, std::size_t begin) const;
+    void load(std::span<const QueuedRay> queue, std::span<const std::uint32_t> chosen);
+    void trace_tile(RayTile<Real>& rays, bool spawn);
+    void light_and_spawn(bool spawn);
+    void spawn_from(std::size_t k);
+    QueuedRay leaving(const Surface& surface, const glm::dvec3& direction, const std::optional<glm::dvec3>& apex);
+    std::uint32_t family_of(const Vec& apex);
 
     const Pose& pose_;
     std::span<const Texture> textures_;
@@ -66,16 +75,24 @@ private:
     MeteredSearch<Real> search_;
     ShadowTracer<Real> shadows_;
 
+    /// What follows a ray through the tree.
+    struct Errand {
+        std::uint32_t number;  ///< in its generation
+        glm::vec3 weight;
+    };
+
     RayTile<Real> primary_, secondary_;
-    Slots slots_;                     ///< by ray of the tile in hand
-    std::vector<glm::vec3> weights_;  ///< likewise
-    std::vector<glm::vec3> brought_;  ///< likewise: what each sees
+    Slots slots_;                  ///< by ray of the tile in hand
+    std::vector<Errand> errands_;  ///< likewise
 
-    std::vector<Surface> surfaces_;  ///< what the tile in hand met; the three below are by surface
+    std::vector<Surface> surfaces_;  ///< what rays have met, to be lit together; the three below are by surface
     Slots surface_slots_;
-    std::vector<glm::vec3> surface_weights_;
-    std::vector<std::size_t> surface_lanes_;
+    std::vector<Errand> surface_errands_;
+    std::vector<glm::vec3> light_;
 
+    std::vector<std::uint32_t> family_sizes_;
+    std::vector<std::uint32_t> order_;  ///< of a queue: family by family, then those that are alone
+    std::vector<glm::vec3> seen_;       ///< by number in the generation: what a ray brings to its pixel
     Generation current_, next_;
 };
 

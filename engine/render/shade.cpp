@@ -23,6 +23,14 @@ float highlight(const Surface& s, const glm::dvec3& l, double n_dot_l)
 /// Sine of the least angle at which a mirrored ray leaves its surface.
 constexpr double least_rise = 0.02;
 
+/// Cosine of the largest angle between the normals of what is flat: of float normals, rounding turns them by less.
+constexpr double flat = 1.0 - 1e-12;
+
+bool goes_straight_on(const Material& material)
+{
+    return material.ior == 0.0 || material.ior == 1.0;
+}
+
 }  // namespace
 
 glm::vec3 ambient_term(const Surface& surface, const glm::vec3& ambient)
@@ -55,15 +63,28 @@ glm::dvec3 reflected_direction(const Surface& surface)
     return glm::normalize(mirror + (least_rise - rise) * surface.geometric);
 }
 
+std::optional<glm::dvec3> reflected_origin(const Surface& surface)
+{
+    const bool is_lifted = -glm::dot(surface.direction, surface.geometric) < least_rise;
+    if (is_lifted || glm::dot(surface.normal, surface.geometric) < flat) return {};
+    return surface.origin - 2.0 * glm::dot(surface.origin - surface.point, surface.geometric) * surface.geometric;
+}
+
 glm::dvec3 transmitted_direction(const Surface& surface)
 {
+    if (goes_straight_on(*surface.material)) return surface.direction;
     const double ior = surface.material->ior;
-    if (ior == 0.0 || ior == 1.0) return surface.direction;
     const double eta = surface.from_outside ? 1.0 / ior : ior;
     const double cos_in = -glm::dot(surface.direction, surface.normal);
     const double cos_out_squared = 1.0 - eta * eta * (1.0 - cos_in * cos_in);
     if (cos_out_squared < 0.0) return reflected_direction(surface);
     return glm::normalize(eta * surface.direction + (eta * cos_in - std::sqrt(cos_out_squared)) * surface.normal);
+}
+
+std::optional<glm::dvec3> transmitted_origin(const Surface& surface)
+{
+    if (!goes_straight_on(*surface.material)) return {};
+    return surface.origin;
 }
 
 }  // namespace firstray::inline v0

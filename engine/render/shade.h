@@ -1,6 +1,8 @@
 #pragma once
 #include <glm/glm.hpp>
 
+#include <optional>
+
 #include "engine/render/surface.h"
 
 namespace firstray::inline v0 {
@@ -31,9 +33,16 @@ glm::vec3 light_term(const Surface& surface, const glm::dvec3& to_light, const g
 /// lies behind the surface, it is lifted just above it: a ray into the wall would see what is behind the scene.
 glm::dvec3 reflected_direction(const Surface& surface);
 
+/// The mirror image of the point that the surface's ray came from: all rays from there that the same plane mirrors come
+/// from it. Nothing where the surface is curved, or the mirrored ray is lifted.
+std::optional<glm::dvec3> reflected_origin(const Surface& surface);
+
 /// Unit direction of the ray that goes on behind the surface: straight where the index of refraction is 0 or 1, bent by
 /// Snell's law otherwise, from vacuum into the material where the ray comes from outside and back where it does not;
 /// mirrored where the reflection is total.
 glm::dvec3 transmitted_direction(const Surface& surface);
+
+/// The point that the surface's ray came from, where it goes straight on.
+std::optional<glm::dvec3> transmitted_origin(const Surface& surface);
 
 }  // namespace firstray::inline v0

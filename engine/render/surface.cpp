@@ -25,7 +25,7 @@ void place_on_triangle(const Pose& pose, const RayHit& hit, Surface& s)
     s.geometric = glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
     const double length = glm::length(s.geometric);
     // Corners that only rounding moved apart make a triangle that can be hit but has no normal here.
-    s.geometric = length > 0.0 ? s.geometric * (1.0 / length) : -hit.direction;
+    s.geometric = length > 0.0 ? s.geometric * (1.0 / length) : -s.direction;
     s.normal = shading_normal(pose, hit.primitive, hit.u, hit.v, s.geometric);
     for (const glm::dvec3& corner : corners) s.extent = std::max(s.extent, largest_coordinate(corner));
 }
@@ -56,7 +56,8 @@ Surface surface_at(const Pose& pose, std::span<const Texture> textures, const Ra
     const Scene& scene = *pose.scene;
     const Part& part = scene.part(hit.primitive);
     Surface s;
-    s.direction = hit.direction;
+    s.origin = hit.origin;
+    s.direction = glm::normalize(hit.direction);
     s.material = &scene.materials[part.material];
     if (scene.is_triangle(hit.primitive)) {
         place_on_triangle(pose, hit, s);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <span>
 #include <type_traits>
 
@@ -20,7 +21,7 @@ inline double largest_coordinate(const glm::dvec3& p)
 /// A ray and the nearest hit along it, root system, in double whatever the tile's precision.
 struct RayHit {
     glm::dvec3 origin{0.0};
-    glm::dvec3 direction{0.0};  ///< unit length
+    glm::dvec3 direction{0.0};  ///< any length, in which t counts
     double t = 0.0, u = 0.0, v = 0.0;
     PrimitiveId primitive = no_primitive;
 };
@@ -29,6 +30,7 @@ struct RayHit {
 /// that the ray came from.
 struct Surface {
     glm::dvec3 point{0.0};
+    glm::dvec3 origin{0.0};     ///< of the ray
     glm::dvec3 direction{0.0};  ///< of the ray, unit
     glm::dvec3 geometric{0.0};  ///< unit normal of the primitive
     glm::dvec3 normal{0.0};     ///< unit normal to shade with
@@ -69,6 +71,30 @@ glm::dvec3 start_of_ray(const Surface& surface, const glm::dvec3& direction)
 {
     const double off = self_hit_margin<Real> * surface.extent;
     return surface.point + (glm::dot(direction, surface.geometric) < 0.0 ? -off : off) * surface.geometric;
+}
+
+/// A ray that leaves a surface and begins, for the eye, at a point that others have in common: apex + t * direction,
+/// from t_min on.
+template <typename Real>
+struct RayFromApex {
+    glm::vec<3, Real, glm::defaultp> apex, direction;
+    Real t_min;
+};
+
+/// The ray that leaves the surface as if it came straight from `apex`; nothing where rounding the apex would turn it
+/// visibly (apexes that are near, or far away for the size of the scene), or where it leaves the surface too low to be
+/// told from it.
+template <typename Real>
+std::optional<RayFromApex<Real>> ray_from_apex(const Surface& surface, const glm::dvec3& apex)
+{
+    constexpr double nearest = 0x1p-8, farthest = 16.0, lowest = 0x1p-6;
+    const glm::vec<3, Real, glm::defaultp> rounded(apex);
+    const glm::dvec3 along = surface.point - glm::dvec3(rounded);
+    const double extent = std::max(surface.extent, largest_coordinate(apex)), length = glm::length(along);
+    const double height = std::abs(glm::dot(along, surface.geometric));
+    if (!(extent <= farthest * surface.extent && length >= nearest * extent && height >= lowest * length)) return {};
+    return RayFromApex<Real>{rounded, decltype(rounded)(along),
+                             static_cast<Real>(1.0 + self_hit_margin<Real> * extent / height)};
 }
 
 /// Where a ray that comes from a light ends: off the surface, on the viewer's side.

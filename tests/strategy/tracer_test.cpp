@@ -164,8 +164,9 @@ TEST_CASE("every strategy finds the same hits on meshes that move and deform, bi
                 hits += static_cast<bool>(hit);
                 on_live += hit.mesh == 1;
             }
-            for (const auto& [name, tracer] : tracers) {
-                CAPTURE(name);
+            for (const auto& named : tracers) {
+                const auto& tracer = named.second;
+                CAPTURE(named.first);
                 CAPTURE(frame);
                 tracer->update(places);
                 CHECK(count_differences(closest(*tracer, rays), expected) == 0);
