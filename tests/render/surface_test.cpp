@@ -1,3 +1,4 @@
+#include "engine/render/shade.h"
 #include "engine/render/surface.h"
 
 #include <doctest/doctest.h>
@@ -133,7 +134,7 @@ TEST_CASE_TEMPLATE("no ray that leaves a triangle meets it again, whatever its s
     unsigned state = 1;
     const auto random = [&] { return static_cast<double>((state = state * 1664525u + 1013904223u) >> 8) * 0x1p-24; };
     const auto random_point = [&] { return 2.0 * glm::dvec3(random(), random(), random()) - 1.0; };
-    int hits = 0, self_hits = 0;
+    int hits = 0, self_hits = 0, from_apexes = 0, turned = 0;
     for (int round = 0; round < 4000; ++round) {
         const double scale = std::exp2(std::floor(60.0 * random() - 30.0));
         const glm::dvec3 place = scale * std::exp2(10.0 * random()) * random_point();
@@ -144,11 +145,11 @@ TEST_CASE_TEMPLATE("no ray that leaves a triangle meets it again, whatever its s
         const Pose at_start = pose(scene, 0.0);
         test::ReferenceStrategy<Real> strategy;
         strategy.update(at_start);
-        const auto aim = [&](const glm::dvec3& origin, const glm::dvec3& direction, Real end) {
+        const auto aim = [&](const glm::dvec3& origin, const glm::dvec3& direction, Real end, Real begin = 0) {
             rays->count = 1;
             rays->set_origin(0, typename RayTile<Real>::Vec(origin));
             rays->set_direction(0, typename RayTile<Real>::Vec(direction));
-            rays->set_interval(0, Real(0), end);
+            rays->set_interval(0, begin, end);
             strategy.closest(*rays);
             return rays->primitive[0] != no_primitive;
         };
@@ -159,6 +160,16 @@ TEST_CASE_TEMPLATE("no ray that leaves a triangle meets it again, whatever its s
         if (!aim(eye, glm::normalize(target - eye), std::numeric_limits<Real>::infinity())) continue;
         ++hits;
         const Surface s = surface_at(at_start, {}, ray_hit(*rays, 0));
+        const auto aim_from = [&](const std::optional<glm::dvec3>& apex, const glm::dvec3& direction) {
+            const auto ray = apex ? ray_from_apex<Real>(s, *apex) : std::nullopt;
+            if (!ray) return;
+            ++from_apexes;
+            const glm::dvec3 way(ray->direction);
+            turned += glm::length(glm::normalize(way) - direction) > 1e-4;
+            self_hits += aim(glm::dvec3(ray->apex), way, std::numeric_limits<Real>::infinity(), ray->t_min);
+        };
+        aim_from(reflected_origin(s), reflected_direction(s));
+        aim_from(transmitted_origin(s), transmitted_direction(s));
         for (int k = 0; k < 4; ++k) {
             const glm::dvec3 d = glm::normalize(random_point());
             self_hits += aim(start_of_ray<Real>(s, d), d, std::numeric_limits<Real>::infinity());
@@ -169,7 +180,42 @@ TEST_CASE_TEMPLATE("no ray that leaves a triangle meets it again, whatever its s
         }
     }
     CHECK(hits > 3000);
+    CHECK(from_apexes > 3000);
+    CHECK(turned == 0);
     CHECK(self_hits == 0);
+}
+
+TEST_CASE("rays from one point that a plane mirrors come from one point, those that anything else mirrors do not")
+{
+    test::SmallScene small;
+    small.quad(grey, {0, 0, -5}, {4, 0, 0}, {0, 4, 0});
+    const Scene scene = small.build();
+    const Pose at_start = pose(scene, 0.0);
+    const glm::dvec3 eye(1.0, 2.0, 3.0);
+    for (const double u : {0.1, 0.3, 0.6}) {
+        const auto corners = triangle_corners(at_start, u < 0.5 ? 0 : 1);
+        const glm::dvec3 place = (0.9 - u) * corners[0] + u * corners[1] + 0.1 * corners[2];
+        Surface s = surface_at(
+            at_start, {},
+            {.origin = eye, .direction = place - eye, .t = 1.0, .u = u, .v = 0.1, .primitive = u < 0.5 ? 0u : 1u});
+        REQUIRE(reflected_origin(s));
+        CHECK(glm::length(*reflected_origin(s) - glm::dvec3(1.0, 2.0, -13.0)) < 1e-12);
+        const auto ray = ray_from_apex<float>(s, *reflected_origin(s));
+        REQUIRE(ray);
+        CHECK(ray->apex == glm::vec3(1.0f, 2.0f, -13.0f));
+        CHECK(glm::length(glm::dvec3(ray->direction) - (place - glm::dvec3(ray->apex))) < 1e-6);
+        CHECK(ray->t_min > 1.0f);
+        CHECK(ray->t_min < 1.0001f);
+        CHECK(transmitted_origin(s) == eye);
+        CHECK(!ray_from_apex<float>(s, s.point + 1e-4 * s.geometric));  // rounding would turn it
+        CHECK(!ray_from_apex<float>(s, s.point + 1e3 * s.geometric));
+        CHECK(!ray_from_apex<float>(s, s.point + 3.0 * glm::cross(s.geometric, glm::dvec3(0.6, 0.8, 0.0))));
+        s.normal = glm::normalize(s.normal + glm::dvec3(1e-3, 0.0, 0.0));
+        CHECK(!reflected_origin(s));
+        const Material glass{.transmittance = 0.5f, .ior = 1.5f};
+        s.material = &glass;
+        CHECK(!transmitted_origin(s));
+    }
 }
 
 TEST_CASE_TEMPLATE("no ray that leaves a sphere outwards meets it again, however far the ray came that found it", Real,
