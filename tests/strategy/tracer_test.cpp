@@ -189,7 +189,7 @@ TEST_CASE("batches of any size, on one thread and on four, find what rays find a
     const std::vector<Transform> places = soups.next_frame();
     alone.update(places);
     four.update(places);
-    for (const std::size_t count : {0, 1, 2, 1023, 1024, 1025, 5000})
+    for (const std::size_t count : {0u, 1u, 2u, 1023u, 1024u, 1025u, 5000u})
         for (const bool common_apex : {false, true}) {
             const std::vector<Tracer::Ray> rays = soups.rays(count, common_apex);
             std::vector<Tracer::Hit> one_by_one;
