@@ -56,6 +56,7 @@ void RayTree<Real>::trace(std::span<glm::vec3> colours)
         std::swap(current_, next_);
         next_.clear();
         auto& [reflected, transmitted, apexes] = current_;
+        // Surfaces were lit family by family: back into an order that knows nothing of families.
         for (std::vector<QueuedRay>* queue : {&reflected, &transmitted})
             std::sort(queue->begin(), queue->end(),
                       [](const QueuedRay& a, const QueuedRay& b) { return a.parent < b.parent; });

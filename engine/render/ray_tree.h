@@ -58,6 +58,12 @@ private:
         bool empty() const { return reflected.empty() && transmitted.empty(); }
         void clear();
     };
+    /// What follows a ray through the tree.
+    struct Errand {
+        std::uint32_t number;  ///< in its generation
+        glm::vec3 weight;
+    };
+
     void trace_queue(std::span<QueuedRay> queue, std::uint32_t first_number, bool spawn);
     void sort_by_family(std::span<QueuedRay> queue);
     std::size_t end_of_tile(std::span<const QueuedRay> queue, std::size_t begin) const;
@@ -74,12 +80,6 @@ private:
     RayCounts counts_;
     MeteredSearch<Real> search_;
     ShadowTracer<Real> shadows_;
-
-    /// What follows a ray through the tree.
-    struct Errand {
-        std::uint32_t number;  ///< in its generation
-        glm::vec3 weight;
-    };
 
     RayTile<Real> primary_, secondary_;
     Slots slots_;                  ///< by ray of the tile in hand
