@@ -128,7 +128,7 @@ Scene make_cloud(std::size_t triangles, bool deforms)
     Scene scene = empty_scene("cloud");
     std::mt19937 random(1);
     const auto number = [&] { return static_cast<double>(random()) / static_cast<double>(std::mt19937::max()); };
-    const auto vector = [&] { return glm::dvec3(number(), number(), number()); };
+    const auto vector = [&] { return glm::dvec3{number(), number(), number()}; };  // braces: in this order
     const double size = 1.0 / std::cbrt(static_cast<double>(triangles));
     for (std::size_t i = 0; i < triangles; ++i) {
         const glm::dvec3 place = vector(), drift = 4.0 * size * (vector() - 0.5);

@@ -13,7 +13,7 @@ namespace {
 bool same_bits(const Pose& a, const Pose& b)
 {
     const auto same = [](const auto& x, const auto& y) {
-        return x.size() == y.size() && std::memcmp(x.data(), y.data(), x.size() * sizeof(x[0])) == 0;
+        return x.size() == y.size() && (x.empty() || std::memcmp(x.data(), y.data(), x.size() * sizeof(x[0])) == 0);
     };
     return same(a.root_from_node, b.root_from_node) && same(a.visible, b.visible) && same(a.lights, b.lights) &&
            a.camera.eye == b.camera.eye && a.camera.forward == b.camera.forward && a.camera.up == b.camera.up;
