@@ -64,7 +64,8 @@ double size_of(const glm::dmat3& linear)
 double blur_of(const glm::dmat3& local_from_root, double largest)
 {
     constexpr double epsilon = std::numeric_limits<float>::epsilon();
-    return size_of(local_from_root) * std::min(largest, farthest_place) * epsilon;  // nothing is met beyond
+    const double reach = largest <= farthest_place ? largest : farthest_place;  // nothing is met beyond
+    return size_of(local_from_root) * reach * epsilon;
 }
 
 GridOptions BoxMaker::shape_of(std::size_t primitives) const

@@ -139,3 +139,16 @@ void operator delete(void* memory, std::size_t, std::align_val_t) noexcept
 {
     firstray::command::give_back(memory);
 }
+// The standard's array forms call these; a sanitizer's do not.
+void* operator new[](std::size_t size)
+{
+    return operator new(size);
+}
+void operator delete[](void* memory) noexcept
+{
+    operator delete(memory);
+}
+void operator delete[](void* memory, std::size_t) noexcept
+{
+    operator delete(memory);
+}

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "engine/core/search_ray.h"
 #include "engine/primitive/quadric.h"
 #include "engine/scene/pose.h"
 
@@ -75,7 +76,8 @@ Aabb room_of_movers(const Scene& scene, std::span<const DAabb> bounds)
         for (std::size_t g = 1; g < scene.groups.size(); ++g) {
             if (!sample.is_visible(scene.groups[g]) || bounds[g].empty()) continue;
             const DAabb box = transformed(bounds[g], sample.root_from_node[scene.groups[g].node]);
-            room.grow(Aabb{glm::vec3(box.lo), glm::vec3(box.hi)});
+            const glm::dvec3 end(farthest_place);  // nothing is met beyond
+            room.grow(Aabb{glm::vec3(glm::clamp(box.lo, -end, end)), glm::vec3(glm::clamp(box.hi, -end, end))});
         }
     }
     return room;
