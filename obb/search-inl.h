@@ -167,10 +167,10 @@ struct Searcher {
     }
 
     std::uint64_t version() const { return target.geometry->version(); }
-    float cell() const
+    const Grid* top() const
     {
-        if (target.scenery) return target.scenery->structure.grids[0].fine_length();
-        return target.outer ? target.outer->structure.grids[0].fine_length() : 1.0f;
+        if (target.scenery) return &target.scenery->structure.grids[0];
+        return target.outer ? &target.outer->structure.grids[0] : nullptr;
     }
 
     template <class BeamQuest>

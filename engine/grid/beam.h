@@ -69,6 +69,10 @@ inline constexpr int fewest_rays = 5;
 /// between 1.1 and 200 on whole pictures: at 8, what mirrors show takes a sixth longer; at 1.1, everything does.)
 inline constexpr float most_columns = 2.5f;
 
+/// The same for rays that have no end yet, where the scene ends: most of them will end long before. (Of 1,024 rays over
+/// ten million triangles each packet covers thousands of columns, and a beam takes a thousand times as long as its rays.)
+inline constexpr float most_columns_without_end = 64.0f;
+
 /// Which of a beam's packets were tested against the triangles met of late: a triangle that stands in many cells is
 /// tested once. Direct-mapped, so that it forgets: that costs a test, not a hit. One for each thread.
 class Mailbox {

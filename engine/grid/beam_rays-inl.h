@@ -7,6 +7,7 @@
 #endif
 
 #include "engine/grid/beam_order.h"
+#include "engine/grid/grid.h"
 #include "engine/grid/packet_kernels-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -196,15 +197,19 @@ HWY_INLINE void find_places(const BeamRays& rays, const Beam& root, BeamPlaces& 
 }
 
 /// Packets whose rays end so far apart that each goes through cells of its own: they are left out of the beam.
-/// cell  length of a cell
-HWY_INLINE PacketMask leave_out_wide(Beam& beam, BeamRays& rays, float cell)
+/// top   the grid of most cells
+/// cell  length of one of them
+HWY_INLINE PacketMask leave_out_wide(Beam& beam, BeamRays& rays, const Grid& top, float cell)
 {
     PacketMask wide = 0;
+    const float side = beam.forward > 0.0f ? top.hi()[beam.k] : top.lo[beam.k];
+    const float farthest = std::max(beam.forward * (side - beam.apex[2]), 0.0f);
     for (int packet = 0; packet < beam.count; ++packet) {
-        const float depth = beam.reach[packet] / cell;
+        const float depth = std::min(beam.reach[packet], farthest) / cell;
+        const float most = beam.reach[packet] < 1e30f ? most_columns : most_columns_without_end;
         const float columns = ((beam.hi_u[packet] - beam.lo_u[packet]) * depth + 1.0f) *
                               ((beam.hi_v[packet] - beam.lo_v[packet]) * depth + 1.0f);
-        if (!(columns > most_columns) || !(depth < 1e30f)) continue;
+        if (!(columns > most)) continue;
         wide |= PacketMask{1} << packet;
         beam.reach[packet] = -std::numeric_limits<float>::infinity();
         std::fill_n(rays.t.begin() + packet * packet_size, packet_size, -std::numeric_limits<float>::infinity());
@@ -244,15 +249,16 @@ HWY_INLINE void store_hits(const BeamRays& rays, const std::int32_t* lanes, int 
 /// Sends a tile's rays on their quests as beams, and those that make none one by one.
 /// search  `search(rays, root)` searches whatever there is for a beam
 /// one     `one(lane)` does for one ray
-/// cell    length of a cell
+/// top     the grid of most cells, if there is one
 template <class Search, class One>
-HWY_NOINLINE void search_by_beams(RayTile<float>& tile, float cell, const Search& search, const One& one)
+HWY_NOINLINE void search_by_beams(RayTile<float>& tile, const Grid* top, const Search& search, const One& one)
 {
+    const float cell = top ? top->fine_length() : 0.0f;
     BeamRays& rays = beam_rays_of_this_thread();
     Beam root;
     BeamOrder order;
     const auto send = [&](const BeamPart& part) HWY_ATTR {
-        PacketMask wide = leave_out_wide(root, rays, cell);
+        PacketMask wide = top ? leave_out_wide(root, rays, *top, cell) : 0;
         finish_beam(root);
         const std::int32_t* const lanes = order.lanes_of(part);
         if (root.packets != 0) search(rays, root);

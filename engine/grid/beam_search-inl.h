@@ -267,7 +267,7 @@ HWY_INLINE void search_tile(RayTile<Real>& tile, Precision precision, const Sear
             Occluders& occluders = Occluders::of_this_thread();
             if (query == Query::any) occluders.begin_tile(tile.apex, searcher.version());
             search_by_beams(
-                tile, searcher.cell(),
+                tile, searcher.top(),
                 [&](BeamRays& rays, Beam& root) HWY_ATTR {
                     mailbox.begin_beam();
                     BeamQuest<query> quest{rays, root, mailbox, occluders, tile.mask, precision};

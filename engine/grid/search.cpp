@@ -21,7 +21,7 @@ struct GridSearcher {
         search_root(target, EagerResolver(*target.structure), quest);
     }
     std::uint64_t version() const { return target.geometry->version(); }
-    float cell() const { return target.structure->grids[0].fine_length(); }
+    const Grid* top() const { return &target.structure->grids[0]; }
 
     template <class BeamQuest>
     void beam(BeamQuest& quest) const
