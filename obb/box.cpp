@@ -46,6 +46,18 @@ std::vector<glm::dvec3> points_of(const Scene& scene, const BoxPlan& plan, const
     return points;
 }
 
+/// Of a group's primitives, only those of one of its boxes stay.
+void keep_planned(const BoxPlan& plan, PrimitiveList& primitives)
+{
+    const auto is_another = [&](PrimitiveId id) {
+        return std::none_of(plan.primitives.begin(), plan.primitives.end(), [&](const PrimitiveRange& range) {
+            return id >= range.first && id < range.first + range.count;
+        });
+    };
+    std::erase_if(primitives.triangles, is_another);
+    std::erase_if(primitives.quadrics, is_another);
+}
+
 bool is_finite(const RootTriangle<float>& t)
 {
     return std::isfinite(t.edge) && std::isfinite(t.v[0].x + t.v[0].y + t.v[0].z);
@@ -66,6 +78,28 @@ double blur_of(const glm::dmat3& local_from_root, double largest)
     constexpr double epsilon = std::numeric_limits<float>::epsilon();
     const double reach = largest <= farthest_place ? largest : farthest_place;  // nothing is met beyond
     return size_of(local_from_root) * reach * epsilon;
+}
+
+double BoxMaker::reach_of(const BoxPlan& plan) const
+{
+    const Group& group = scene.groups[plan.group];
+    double reach = 0.0;
+    for_each_primitive(scene, plan, [&](PrimitiveId id, bool is_triangle) {
+        DAabb box;
+        if (is_triangle) {
+            for (int k = 0; k < 3; ++k) {
+                const glm::dvec3 corner =
+                    scene.position(scene.triangles[id - group.first + group.first_triangle].vertex[k]);
+                if (std::isfinite(corner.x + corner.y + corner.z)) box.grow(corner);
+            }
+        } else {
+            const Quadric& shape = scene.quadrics[id - group.first - group.triangles + group.first_quadric];
+            box = place_quadric(shape, {}, id, false).bounds;
+            if (box.empty()) reach = std::numeric_limits<double>::infinity();
+        }
+        reach = std::max(reach, largest_coordinate(box));
+    });
+    return reach;
 }
 
 GridOptions BoxMaker::shape_of(std::size_t primitives) const
@@ -155,7 +189,7 @@ Box BoxMaker::make_in(const BoxPlan& plan, const Transform& local_from_node, flo
 }
 
 template <typename Real>
-Box BoxMaker::make_deformed(const BoxPlan& plan, const RootGeometry<Real>& geometry, const Transform& root_from_node,
+Box BoxMaker::make_in_root(const BoxPlan& plan, const RootGeometry<Real>& geometry, const Transform& root_from_node,
                             const Executor* executor, std::uint64_t& peak_bytes) const
 {
     Box box;
@@ -163,6 +197,7 @@ Box BoxMaker::make_deformed(const BoxPlan& plan, const RootGeometry<Real>& geome
     box.node_from_local = inverse(root_from_node);
     PrimitiveList primitives;
     geometry.list(plan.group, primitives);
+    if (plan.count() < scene.groups[plan.group].primitives()) keep_planned(plan, primitives);
     GridEntries entries = make_entries(geometry, primitives, executor);
     const Aabb bounds = bounds_of(entries, executor);
     box.bounds = {glm::dvec3(bounds.lo), glm::dvec3(bounds.hi)};
@@ -170,9 +205,9 @@ Box BoxMaker::make_deformed(const BoxPlan& plan, const RootGeometry<Real>& geome
     return box;
 }
 
-template Box BoxMaker::make_deformed(const BoxPlan&, const RootGeometry<float>&, const Transform&, const Executor*,
+template Box BoxMaker::make_in_root(const BoxPlan&, const RootGeometry<float>&, const Transform&, const Executor*,
                                      std::uint64_t&) const;
-template Box BoxMaker::make_deformed(const BoxPlan&, const RootGeometry<double>&, const Transform&, const Executor*,
+template Box BoxMaker::make_in_root(const BoxPlan&, const RootGeometry<double>&, const Transform&, const Executor*,
                                      std::uint64_t&) const;
 
 }  // namespace firstray::inline v0::obb

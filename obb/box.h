@@ -71,11 +71,15 @@ struct BoxMaker {
     /// blur  see GridEntries
     Box make_in(const BoxPlan& plan, const Transform& local_from_node, float blur, std::uint64_t& peak_bytes) const;
 
-    /// Makes the box of a group that deforms, axis-aligned, in the root system itself, from its carried primitives,
-    /// which must stay as they are as long as the box is used.
+    /// Makes a box that is not kept, for what deforms or is out of range: axis-aligned, in the root system itself, from
+    /// its carried primitives, which must stay as they are as long as the box is used.
     template <typename Real>
-    Box make_deformed(const BoxPlan& plan, const RootGeometry<Real>& geometry, const Transform& root_from_node,
-                      const Executor* executor, std::uint64_t& peak_bytes) const;
+    Box make_in_root(const BoxPlan& plan, const RootGeometry<Real>& geometry, const Transform& root_from_node,
+                     const Executor* executor, std::uint64_t& peak_bytes) const;
+
+    /// The largest coordinate of a group's vertices and shapes, in its node's system; infinite where a shape reaches too
+    /// far to tell. What is not finite is left out: it is nowhere.
+    double reach_of(const BoxPlan& plan) const;
 
 private:
     GridOptions shape_of(std::size_t primitives) const;

@@ -36,7 +36,7 @@ void ObbStrategy<Real>::build()
         for (std::size_t i = 0; i < boxes_.size(); ++i) make(i);
     for (std::uint32_t i = 0; i < boxes_.size(); ++i) {
         peak_bytes_ += boxes_[i].bytes();
-        if (!group_of(i).deforming) regridded_ += hierarchy_.boxes[i].count();
+        if (first_[i].is_kept) regridded_ += hierarchy_.boxes[i].count();
     }
 
     for (const Cluster& cluster : hierarchy_.clusters) {
@@ -44,7 +44,7 @@ void ObbStrategy<Real>::build()
         std::vector<BoxPlace> places;
         for (std::uint32_t i = cluster.first_box; i < cluster.first_box + cluster.boxes; ++i) {
             const Transform root_from_node = usable(start, group_of(i).node);
-            if (!group_of(i).deforming) places.push_back(place_box(boxes_[i], root_from_node, inverse(root_from_node)));
+            if (first_[i].is_kept) places.push_back(place_box(boxes_[i], root_from_node, inverse(root_from_node)));
         }
         axes_.push_back(choose_axes(places, inverse(root_from_cluster).linear));
     }
@@ -67,9 +67,24 @@ void ObbStrategy<Real>::build_scenery(const Aabb& movers)
 template <typename Real>
 void ObbStrategy<Real>::make_first(std::uint32_t number, const Transform& root_from_node)
 {
+    First& first = first_[number];
+    first.reach = maker_.reach_of(hierarchy_.boxes[number]);
+    first.is_kept = can_be_kept(number, root_from_node);
+    if (!first.is_kept) return;
     std::uint64_t built_bytes = 0;
     boxes_[number] = maker_.make(hierarchy_.boxes[number], root_from_node, largest_, built_bytes);
-    first_[number] = {boxes_[number], boxes_[number].blur};
+    first.system = boxes_[number];
+    first.blur = boxes_[number].blur;
+}
+
+/// Whether all of a box is in range, in its node's lengths too: what is not there, corners so far out that they are
+/// left alone, does not shape it, and where it stands is known as well as where its vertices do.
+template <typename Real>
+bool ObbStrategy<Real>::can_be_kept(std::uint32_t number, const Transform& root_from_node) const
+{
+    const glm::dvec3 offset = glm::abs(root_from_node.offset);
+    return first_[number].reach * size_of(root_from_node.linear) + std::max({offset.x, offset.y, offset.z}) <=
+           farthest_place;
 }
 
 /// largest  coordinate of the box in the root system
@@ -107,28 +122,34 @@ void ObbStrategy<Real>::move_box(std::uint32_t number, const Pose& pose)
 {
     const BoxPlan& plan = hierarchy_.boxes[number];
     const Group& group = scene_.groups[plan.group];
-    Box& box = boxes_[number];
     BoxPlace& place = places_[number];
     place.is_there = pose.is_visible(group);
     if (!place.is_there) return;
     const Transform& root_from_node = pose.root_from_node[group.node];
-    if (group.deforming) {
-        geometry_.touch(plan.group, options_.executor);
-        std::uint64_t built_bytes = 0;
-        box = maker_.make_deformed(plan, geometry_, root_from_node, options_.executor, built_bytes);
-        regridded_ += group.primitives();
-        place = place_in_root(box);
-    } else {
+    const bool is_kept = first_[number].is_kept && can_be_kept(number, root_from_node);
+    if (is_kept)
         move_rigid(number, root_from_node);
-    }
-    placed_[number] = {&box,
+    else
+        regrid(number, root_from_node);
+    placed_[number] = {&boxes_[number],
                        &plan,
                        nullptr,
-                       own_.hits == Hits::root || group.deforming,
-                       place.largest <= farthest_place,
+                       own_.hits == Hits::root || !is_kept,
                        plan.group,
                        place.loose,
                        place.local_from_root};
+}
+
+template <typename Real>
+void ObbStrategy<Real>::regrid(std::uint32_t number, const Transform& root_from_node)
+{
+    const BoxPlan& plan = hierarchy_.boxes[number];
+    geometry_.touch(plan.group, options_.executor);
+    std::uint64_t built_bytes = 0;
+    boxes_[number] = maker_.make_in_root(plan, geometry_, root_from_node, options_.executor, built_bytes);
+    fits_[number] = {.is_distorted = true};  // what was kept is gone
+    regridded_ += plan.count();
+    places_[number] = place_in_root(boxes_[number]);
 }
 
 /// The item of a cluster: its one box, or a supergrid over its boxes, made anew.

@@ -69,6 +69,8 @@ private:
     void make_fit(std::uint32_t number, const Fit& fit, const Transform& root_from_node, double largest);
     void move_box(std::uint32_t number, const Pose& pose);
     void move_rigid(std::uint32_t number, const Transform& root_from_node);
+    void regrid(std::uint32_t number, const Transform& root_from_node);
+    bool can_be_kept(std::uint32_t number, const Transform& root_from_node) const;
     void place_clusters(const Pose& pose);
     Item make_item_of(std::uint32_t cluster, const Pose& pose, double wide);
     void outline_cluster(std::uint32_t cluster, std::vector<StructureBox>& out) const;
@@ -85,6 +87,8 @@ private:
     struct First {
         BoxSystem system;
         float blur = 0.0f;
+        double reach = 0.0;    ///< see BoxMaker::reach_of
+        bool is_kept = false;  ///< false: deforms, or was out of range
     };
     std::vector<Box> boxes_;             ///< by hierarchy_.boxes
     std::vector<First> first_;           ///< by box

@@ -95,7 +95,7 @@ struct World {
     {
         const GridStructure* inside = placed.box->enter();
         const BoxPrimitives<Real> primitives{target, *placed.box, placed.group, placed.in_root, ray};
-        if (HWY_UNLIKELY(!inside || !placed.in_range) ||
+        if (HWY_UNLIKELY(!inside) ||
             largest_component<double>(o) > far_away * static_cast<double>(inside->pad))
             return one_by_one(quest, *placed.plan, primitives);
         Search<Quest, BoxPrimitives<Real>> search{quest, primitives, inside};
@@ -136,7 +136,7 @@ struct BeamWorld {
     HWY_NOINLINE void enter_beam(std::uint32_t number, BeamQuest& quest, PacketMask packets) const
     {
         const Placed& placed = (*target.placed)[number];
-        const GridStructure* inside = placed.in_root && placed.in_range ? placed.box->enter() : nullptr;
+        const GridStructure* inside = placed.in_root ? placed.box->enter() : nullptr;
         PacketMask alone = packets;
         if (HWY_LIKELY(inside)) {
             Beam local;

@@ -16,7 +16,6 @@ struct Placed {
     const BoxPlan* plan = nullptr;         ///< of the box
     const BoxedGrid* supergrid = nullptr;  ///< null for boxes
     bool in_root = true;                   ///< hits in the box are decided in the root system, not in the box's own
-    bool in_range = true;                  ///< all of the box is, so that its grid tells right what a ray meets
     std::uint32_t group = 0;               ///< whose primitives the box holds
     float loose = 1.0f;                    ///< how much larger the test's errors are in the box's system: see FilterRay
     Transform local_from_root;
