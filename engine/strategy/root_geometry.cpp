@@ -26,8 +26,7 @@ RootGeometry<Real>::RootGeometry(const Scene& scene)
       in_range_(scene.groups.size()),
       was_listed_(scene.groups.size())
 {
-    vertices_.reserve(scene.vertex_count() + 1);
-    vertices_.resize(scene.vertex_count());
+    vertices_.resize(scene.vertex_count() + scene.groups.size());
     corners_.resize(scene.primitive_count());
     for (const Part& part : scene.parts) {
         const Group& group = scene.groups[part.group];
@@ -36,7 +35,7 @@ RootGeometry<Real>::RootGeometry(const Scene& scene)
         std::fill(transmits_.begin() + part.first, transmits_.begin() + end,
                   scene.materials[part.material].transmits());
         for (PrimitiveId id = part.first; id < quadrics; ++id)
-            corners_[id] = scene.triangles[id - group.first + group.first_triangle].vertex;
+            corners_[id] = scene.triangles[id - group.first + group.first_triangle].vertex + part.group;
         for (PrimitiveId id = quadrics; id < end; ++id)
             corners_[id] = glm::uvec3(id - group.first - group.triangles + group.first_quadric);
     }
@@ -46,7 +45,7 @@ template <typename Real>
 void RootGeometry<Real>::carry(const Pose& pose, std::uint32_t group, const Executor* executor) const
 {
     const Group& g = scene_.groups[group];
-    bool in_range = carry_vertices(pose, g, vertices_.data() + g.first_vertex, executor);
+    bool in_range = carry_vertices(pose, g, vertices_.data() + g.first_vertex + group, executor);
     for (std::uint32_t i = 0; i < g.quadrics; ++i) {
         const PrimitiveId id = g.first + g.triangles + i;
         RootQuadric& placed = placed_[g.first_quadric + i];

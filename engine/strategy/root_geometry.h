@@ -58,8 +58,8 @@ public:
         return {{v0, v1, v2}, longest_edge<Real>(v0, v1, v2)};
     }
     const RootQuadric& quadric(PrimitiveId id) const { return placed_[corners_[id].x]; }
-    /// The same triangles' corners for who reads many: indices into vertices(), by PrimitiveId. There is memory for one
-    /// vertex more, so that four numbers may be read of each.
+    /// The same triangles' corners for who reads many: indices into vertices(), by PrimitiveId. Behind every group's
+    /// vertices is memory for one more, so that four numbers may be read of each, whoever carries the next group.
     const glm::uvec3* corners() const { return corners_.data(); }
     const Vec* vertices() const { return vertices_.data(); }
 
@@ -93,7 +93,7 @@ private:
 
     const Scene& scene_;
     const Pose* pose_ = nullptr;               ///< for groups that are carried when touched
-    mutable RawVector<Vec> vertices_;          ///< by number, as Scene::position
+    mutable RawVector<Vec> vertices_;          ///< group by group as in Scene::position, and an unused one after each
     mutable std::vector<RootQuadric> placed_;  ///< by index in Scene::quadrics
     RawVector<glm::uvec3> corners_;  ///< by PrimitiveId: of a triangle, into vertices_; of a quadric, x: into placed_
     std::vector<std::uint8_t> transmits_;                ///< by PrimitiveId
