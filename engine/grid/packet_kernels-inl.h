@@ -17,15 +17,11 @@ namespace HWY_NAMESPACE {
 /// One triangle as BeamTriangles has sixteen.
 struct ApexTriangle {
     glm::vec3 side[3];  ///< its dot product with a direction is the side u, v, w
-    glm::vec3 normal;   ///< Ng
+    glm::vec3 normal;   ///< Ng, times the square of edge_unit(edge) as height and span are
     float height, span, distance, edge;
     bool has_volume;  ///< float's t can be trusted, as far as this goes
 
-    void set_volume()
-    {
-        const float volume = span * distance;
-        has_volume = volume > least_bound<float> && volume < most_volume;
-    }
+    void set_volume() { has_volume = span * distance > least_bound<float>; }
 };
 
 HWY_INLINE ApexTriangle make_apex_triangle(const RootTriangle<float>& t, const glm::vec3& apex)
@@ -36,9 +32,10 @@ HWY_INLINE ApexTriangle make_apex_triangle(const RootTriangle<float>& t, const g
     p.side[0] = cross_as_written<float>(t.v[2] - t.v[1], a1 + a2);
     p.side[1] = cross_as_written<float>(e1, a2 + a0);
     p.side[2] = cross_as_written<float>(e2, a0 + a1);
-    p.normal = cross_as_written<float>(e1, e2);
+    const float unit = edge_unit(t.edge);
+    p.normal = cross_as_written<float>(e1 * unit, e2 * unit);
     p.height = dot_as_written<float>(p.normal, a0);
-    p.span = largest_component<float>(e1) * largest_component<float>(e2);
+    p.span = largest_component<float>(e1 * unit) * largest_component<float>(e2 * unit);
     p.distance = largest_component<float>(a0) + t.edge;
     p.edge = t.edge;
     p.set_volume();

@@ -35,7 +35,7 @@ bool passes_inside(const RootTriangle<double>& triangle, const TriangleSides<dou
 
 double plane_t(const RootTriangle<double>& triangle, const glm::dvec3& origin, const glm::dvec3& direction)
 {
-    const TrianglePlane<double> plane = triangle_plane(triangle.v, origin, direction);
+    const TrianglePlane<double> plane = triangle_plane(triangle.v, origin, direction, 1.0);
     const double t = plane.height / plane.slope;
     if (std::abs(plane.slope) > least_slope_in_double * (plane.span * largest_component<double>(direction))) return t;
     double t_corner[3];

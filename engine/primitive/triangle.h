@@ -2,7 +2,9 @@
 #include <glm/glm.hpp>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 
 /// Inlined into kernels of every instruction set, where it is compiled for that set (but never contracted).
@@ -65,9 +67,6 @@ inline constexpr float least_distance = 1.0f / 8;
 /// then a ray that it takes for a hit misses the triangle by a hundredth of its size at most.
 inline constexpr float farthest_fast = 1024.0f;
 
-/// span * distance must stay below this for float's t, or products overflow.
-inline constexpr float most_volume = 1e36f;
-
 /// Bound on float's error of t where it is sloped enough: this part of t plus distance / direction (64 * 50 half ulps).
 inline constexpr float quotient_error = 1.0f / 4096;
 
@@ -92,13 +91,20 @@ FIRSTRAY_INLINE Real dot_as_written(const glm::vec<3, Real, glm::defaultp>& a,
     return (a.x * b.x + a.y * b.y) + a.z * b.z;
 }
 
+/// The power of two that makes a triangle's longest edge lie in [1, 2), where it is no denormal. Planes are made from
+/// edges times this: then products of edges stay in float's range, and t is the same in whatever unit a scene is.
+FIRSTRAY_INLINE float edge_unit(float edge)
+{
+    return std::bit_cast<float>((254u << 23) - (std::bit_cast<std::uint32_t>(edge) & (255u << 23)));
+}
+
 template <typename Real>
 FIRSTRAY_INLINE Real largest_component(const glm::vec<3, Real, glm::defaultp>& v)
 {
     return std::max(std::max(std::abs(v.x), std::abs(v.y)), std::abs(v.z));
 }
 
-/// The quotient that gives t: height / slope = Ng . a_0 / Ng . d, with Ng from the edges at corner 0.
+/// The quotient that gives t: height / slope = Ng . a_0 / Ng . d, with Ng from the edges at corner 0, times a unit.
 template <typename Real>
 struct TrianglePlane {
     Real slope, height;
@@ -108,9 +114,9 @@ struct TrianglePlane {
 template <typename Real>
 FIRSTRAY_INLINE TrianglePlane<Real> triangle_plane(const glm::vec<3, Real, glm::defaultp> (&v)[3],
                                                    const glm::vec<3, Real, glm::defaultp>& origin,
-                                                   const glm::vec<3, Real, glm::defaultp>& direction)
+                                                   const glm::vec<3, Real, glm::defaultp>& direction, Real unit)
 {
-    const auto e1 = v[0] - v[2], e2 = v[1] - v[0], normal = cross_as_written<Real>(e1, e2);
+    const auto e1 = (v[0] - v[2]) * unit, e2 = (v[1] - v[0]) * unit, normal = cross_as_written<Real>(e1, e2);
     return {dot_as_written<Real>(normal, direction), dot_as_written<Real>(normal, v[0] - origin),
             largest_component<Real>(e1) * largest_component<Real>(e2)};
 }
@@ -167,10 +173,9 @@ FIRSTRAY_INLINE TriangleHit<float> intersect(const RootTriangle<float>& triangle
 {
     const float distance = largest_component<float>(triangle.v[0] - origin) + triangle.edge;
     const float length = largest_component<float>(direction);
-    const TrianglePlane<float> plane = triangle_plane(triangle.v, origin, direction);
-    const float volume = plane.span * distance;
-    const bool is_sloped = std::abs(plane.slope) > least_slope * (plane.span * length) && volume > least_bound<float> &&
-                           volume < most_volume;
+    const TrianglePlane<float> plane = triangle_plane(triangle.v, origin, direction, edge_unit(triangle.edge));
+    const bool is_sloped = std::abs(plane.slope) > least_slope * (plane.span * length) &&
+                           plane.span * distance > least_bound<float>;
     float t = plane.height / plane.slope;
     if (!is_sloped || !(std::abs(t) * length >= least_distance * distance)) {
         // Near a large triangle float cannot place the hit well, but mostly well enough to see that it does not count.
