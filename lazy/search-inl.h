@@ -193,10 +193,17 @@ struct BeamWorld {
         const BeamRootPrimitives primitives{*target.geometry};
         const LazyGrid* grid = target.groups->grid(group, rays_worth(packets));
         if (HWY_UNLIKELY(!grid)) return without_grid(group, quest, packets, primitives);
+        const Grid& top = grid->top().grids[0];
+        if (const PacketMask wide = too_wide(quest.root, packets, top, top.fine_length(), most_columns_in_box)) {
+            const World<float> world{target};
+            quest.each_ray(wide, quest.root, [&](auto& single) { world.enter(group, single); });
+            packets &= ~wide;
+            if (packets == 0) return;
+        }
         LazyBeamSearch<BeamQuest> search(quest, primitives, grid->top(), grid);
         search.begin();
         search.list(grid->top().large, packets);
-        walk_slices(grid->top().grids[0], quest.root, packets, search.wide, LazyResolver(grid->top()), search);
+        walk_slices(top, quest.root, packets, search.wide, LazyResolver(grid->top()), search);
     }
 
     /// Tests what is in a group, sixteen at a time, whether it is carried or not.

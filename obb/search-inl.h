@@ -119,10 +119,7 @@ struct BoxBeamPrimitives {
     static constexpr bool stand_in_packs = false;
     const RootGeometry<float>& geometry;
     std::uint32_t group;
-    RootTriangle<float> triangle(const TrianglePack&, int, PrimitiveId id) const
-    {
-        return geometry.triangle_of(group, id);
-    }
+    RootTriangle<float> triangle(PrimitiveId id) const { return geometry.triangle_of(group, id); }
     RootQuadric quadric(PrimitiveId id) const { return geometry.quadric_of(group, id); }
 };
 
@@ -140,7 +137,8 @@ struct BeamWorld {
         PacketMask alone = packets;
         if (HWY_LIKELY(inside)) {
             Beam local;
-            const PacketMask straight = transform(quest.root, packets, placed.local_from_root, local);
+            PacketMask straight = transform(quest.root, packets, placed.local_from_root, local);
+            straight &= ~too_wide(local, straight, inside->grids[0], inside->grids[0].fine_length(), most_columns_in_box);
             const BoxBeamPrimitives primitives{*target.geometry, placed.group};
             BeamSearch<BeamQuest, BoxBeamPrimitives> search{quest, local, primitives, inside,
                                                             target.precision == Precision::fast ? placed.loose : 0.0f};

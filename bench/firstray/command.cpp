@@ -73,27 +73,16 @@ std::string one_line(std::string text)
     return text;
 }
 
-/// What --memory-limit asks for, from when it is read to the end of the run.
-class Memory {
-public:
-    void set(const std::string& size)
-    {
-        if (size.empty()) return;
-        size_ = size;
-        limit_.emplace(parse_amount("--memory-limit", size));
-    }
-    std::string shortage() const
-    {
-        return limit_ && MemoryLimit::was_hit() ? "more memory is needed than --memory-limit " + size_ + " allows"
-                                           : "out of memory";
-    }
+/// What a run that had not enough memory says.
+/// limit  --memory-limit as it was given
+std::string shortage(const std::string& limit)
+{
+    return !limit.empty() && MemoryLimit::was_hit() ? "more memory is needed than --memory-limit " + limit + " allows"
+                                                    : "out of memory";
+}
 
-private:
-    std::string size_;
-    std::optional<MemoryLimit> limit_;
-};
-
-void dispatch(std::span<const std::string> arguments, Streams streams, Memory& limits)
+/// memory  becomes --memory-limit as it was given, which holds until this ends: messages may take what they need
+void dispatch(std::span<const std::string> arguments, Streams streams, std::string& memory)
 {
     Jobs jobs;
     // CLI11 does not even name, in its messages, what help hides.
@@ -112,7 +101,9 @@ void dispatch(std::span<const std::string> arguments, Streams streams, Memory& l
     const CLI::App& command = *app.get_subcommands().front();
     refuse_extras(app);
     refuse_extras(command);
-    limits.set(jobs.memory);
+    std::optional<MemoryLimit> limit;
+    memory = jobs.memory;
+    if (!memory.empty()) limit.emplace(parse_amount("--memory-limit", memory));
     if (command.get_name() == "manual") return print_manual(jobs.manual, streams);
     if (command.get_name() != "info") require_scene(command);
     if (command.get_name() == "render") return render_scene(jobs.render, streams);
@@ -141,7 +132,7 @@ int report(Streams streams, Fault fault, std::string_view message)
 
 int run(std::span<const std::string> arguments, Streams streams)
 {
-    Memory memory;
+    std::string memory;
     try {
         dispatch(arguments, streams, memory);
         if (!streams.out.flush()) throw FileError("cannot write to standard output");
@@ -149,7 +140,7 @@ int run(std::span<const std::string> arguments, Streams streams)
     } catch (const Error& error) {
         return report(streams, error.fault(), error.what());
     } catch (const std::bad_alloc&) {
-        return report(streams, Fault::limit, memory.shortage());
+        return report(streams, Fault::limit, shortage(memory));
     } catch (const std::exception& error) {
         return report(streams, Fault::rendering, one_line(error.what()));
     } catch (...) {

@@ -196,21 +196,31 @@ HWY_INLINE void find_places(const BeamRays& rays, const Beam& root, BeamPlaces& 
     }
 }
 
-/// Packets whose rays end so far apart that each goes through cells of its own: they are left out of the beam.
-/// top   the grid of most cells
+/// Of the packets asked for, those whose rays are so far apart, where they end or leave the grid, that each goes
+/// through cells of its own.
 /// cell  length of one of them
-HWY_INLINE PacketMask leave_out_wide(Beam& beam, BeamRays& rays, const Grid& top, float cell)
+/// most  columns of cells for a packet whose rays have an end
+HWY_INLINE PacketMask too_wide(const Beam& beam, PacketMask asked, const Grid& grid, float cell, float most)
 {
     PacketMask wide = 0;
-    const float side = beam.forward > 0.0f ? top.hi()[beam.k] : top.lo[beam.k];
+    const float side = beam.forward > 0.0f ? grid.hi()[beam.k] : grid.lo[beam.k];
     const float farthest = std::max(beam.forward * (side - beam.apex[2]), 0.0f);
-    for (int packet = 0; packet < beam.count; ++packet) {
+    for (; asked != 0; asked &= asked - 1) {
+        const int packet = __builtin_ctzll(asked);
         const float depth = std::min(beam.reach[packet], farthest) / cell;
-        const float most = beam.reach[packet] < 1e30f ? most_columns : most_columns_without_end;
         const float columns = ((beam.hi_u[packet] - beam.lo_u[packet]) * depth + 1.0f) *
                               ((beam.hi_v[packet] - beam.lo_v[packet]) * depth + 1.0f);
-        if (!(columns > most)) continue;
-        wide |= PacketMask{1} << packet;
+        if (columns > (beam.reach[packet] < 1e30f ? most : most_columns_without_end)) wide |= PacketMask{1} << packet;
+    }
+    return wide;
+}
+
+/// Packets that are too wide for the grid of most cells are left out of the beam.
+HWY_INLINE PacketMask leave_out_wide(Beam& beam, BeamRays& rays, const Grid& top, float cell)
+{
+    const PacketMask wide = too_wide(beam, first_packets(beam.count), top, cell, most_columns);
+    for (PacketMask rest = wide; rest != 0; rest &= rest - 1) {
+        const int packet = __builtin_ctzll(rest);
         beam.reach[packet] = -std::numeric_limits<float>::infinity();
         std::fill_n(rays.t.begin() + packet * packet_size, packet_size, -std::numeric_limits<float>::infinity());
     }

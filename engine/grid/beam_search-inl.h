@@ -113,7 +113,7 @@ private:
 };
 
 /// A beam's search of one structure.
-/// Primitives  what is tested: `triangle(pack, lane, id)` and `quadric(id)`, in the root system; `stand_in_packs` says
+/// Primitives  what is tested, in the root system: `quadric(id)`, and `triangle(id)` where `stand_in_packs` does not say
 ///             that triangles are, bit for bit, those of the packs
 template <class BeamQuest, class Primitives>
 struct BeamSearch {
@@ -170,22 +170,67 @@ struct BeamSearch {
     HWY_NOINLINE void pack(const TrianglePack& pack, PacketMask packets)
     {
         BeamTriangles triangles;
-        for (std::uint32_t met =
-                 make_beam_triangles(pack, beam, bounds_of(beam, packets), wide, structure->blur, loose, triangles);
-             met != 0; met &= met - 1) {
-            const int lane = __builtin_ctz(met);
-            const std::uint32_t marked = pack.id[lane];
-            const PrimitiveId id = marked & ~transmitting_bit;
-            if (!admits(quest.mask, (marked & transmitting_bit) != 0)) continue;
-            const PacketMask untested = quest.mailbox.untested(id, packets);
-            if (untested == 0) continue;
-            const PacketMask maybe = packets_meeting(beam, triangles, lane, untested);
-            if (maybe == 0) continue;
-            const auto triangle = [&] { return primitives.triangle(pack, lane, id); };
-            if constexpr (Primitives::stand_in_packs)
-                quest.test(take_apex_triangle(triangles, pack, lane), marked, maybe, beam, triangle);
-            else
-                quest.test(make_apex_triangle(triangle(), quest.rays.apex), marked, maybe, beam, triangle);
+        std::uint32_t met =
+            make_beam_triangles(pack, beam, bounds_of(beam, packets), wide, structure->blur, loose, triangles);
+        if constexpr (Primitives::stand_in_packs) {
+            for (; met != 0; met &= met - 1) {
+                const int lane = __builtin_ctz(met);
+                if (const PacketMask maybe = untested(pack, lane, packets, triangles))
+                    test(pack, lane, triangles, maybe);
+            }
+        } else {
+            PacketMask maybe[pack_size];
+            std::uint32_t here = 0;
+            for (; met != 0; met &= met - 1) {
+                const int lane = __builtin_ctz(met);
+                maybe[lane] = untested(pack, lane, packets, triangles);
+                if (maybe[lane] != 0) here |= 1u << lane;
+            }
+            if (here != 0) test_in_root(pack, here, maybe, triangles);
+        }
+    }
+
+    /// The packets that may have a ray that meets a triangle, and have not been tested against it.
+    HWY_INLINE PacketMask untested(const TrianglePack& pack, int lane, PacketMask packets,
+                                   const BeamTriangles& triangles)
+    {
+        const std::uint32_t marked = pack.id[lane];
+        if (!admits(quest.mask, (marked & transmitting_bit) != 0)) return 0;
+        const PacketMask asked = quest.mailbox.untested(marked & ~transmitting_bit, packets);
+        return asked == 0 ? 0 : packets_meeting(beam, triangles, lane, asked);
+    }
+
+    HWY_INLINE void test(const TrianglePack& pack, int lane, const BeamTriangles& triangles, PacketMask packets)
+    {
+        quest.test(take_apex_triangle(triangles, pack, lane), pack.id[lane], packets, beam,
+                   [&] { return pack.triangle(lane); });
+    }
+
+    /// Tests triangles of a pack as they stand in the root system.
+    HWY_NOINLINE void test_in_root(const TrianglePack& pack, std::uint32_t lanes, const PacketMask (&maybe)[pack_size],
+                                   BeamTriangles& triangles)
+    {
+        const PackLanes d;
+        TrianglePack root{};
+        PacketMask any = 0;
+        for (std::uint32_t rest = lanes; rest != 0; rest &= rest - 1) {
+            const int lane = __builtin_ctz(rest);
+            root.set_corners(lane, primitives.triangle(pack.id[lane] & ~transmitting_bit).v);
+            root.id[lane] = pack.id[lane];
+            any |= maybe[lane];
+        }
+        for (int first = 0; first < pack_size; first += kernel_lanes) {
+            hn::Vec<PackLanes> v[3][3];
+            for (int corner = 0; corner < 3; ++corner)
+                for (int axis = 0; axis < 3; ++axis) v[corner][axis] = hn::Load(d, root.v[corner][axis] + first);
+            hn::Store(longest_edges(v), d, root.edge + first);
+        }
+        // No depth is known here to be beyond anything.
+        lanes &= make_beam_triangles(root, quest.root, bounds_of(quest.root, any), std::numeric_limits<float>::infinity(),
+                                     0.0f, loose > 0.0f ? 1.0f : 0.0f, triangles);
+        for (; lanes != 0; lanes &= lanes - 1) {
+            const int lane = __builtin_ctz(lanes);
+            test(root, lane, triangles, maybe[lane]);
         }
     }
 
@@ -202,7 +247,6 @@ struct BeamSearch {
 /// Triangles of the root system, for beams.
 struct PackedTriangles {
     static constexpr bool stand_in_packs = true;
-    RootTriangle<float> triangle(const TrianglePack& pack, int lane, PrimitiveId) const { return pack.triangle(lane); }
 };
 
 /// The primitives of a structure in the root system, for beams.

@@ -160,14 +160,6 @@ std::span<const std::uint32_t> in_clusters(const GridEntries& entries, std::span
     return sorted;
 }
 
-HWY_INLINE Lanes longest_edges(const CornerLanes& c)
-{
-    auto longest = hn::Zero(PackLanes());
-    for (int axis = 0; axis < 3; ++axis)
-        for (int k = 0; k < 3; ++k) longest = hn::Max(longest, hn::Abs(hn::Sub(c.v[(k + 1) % 3][axis], c.v[k][axis])));
-    return longest;
-}
-
 /// Copies up to sixteen triangles; sum becomes their boxes, those of a pack's parts put together.
 HWY_INLINE void fill_pack(const GridEntries& entries, std::span<const std::uint32_t> triangles, TrianglePack& pack,
                           BoxLanes& sum)
@@ -184,7 +176,7 @@ HWY_INLINE void fill_pack(const GridEntries& entries, std::span<const std::uint3
         for (int k = 0; k < 3; ++k)
             for (int axis = 0; axis < 3; ++axis)
                 hn::Store(hn::IfThenElse(is_used, c.v[k][axis], nowhere), d, pack.v[k][axis] + lane);
-        hn::Store(hn::IfThenElse(is_used, longest_edges(c), nowhere), d, pack.edge + lane);
+        hn::Store(hn::IfThenElse(is_used, longest_edges(c.v), nowhere), d, pack.edge + lane);
         BoxLanes box;
         find_box(c, box);  // lanes that are not used repeat one that is
         for (int axis = 0; axis < 3; ++axis) {

@@ -20,27 +20,7 @@ struct ApexTriangle {
     glm::vec3 normal;   ///< Ng, times the square of edge_unit(edge) as height and span are
     float height, span, distance, edge;
     bool has_volume;  ///< float's t can be trusted, as far as this goes
-
-    void set_volume() { has_volume = span * distance > least_bound<float>; }
 };
-
-HWY_INLINE ApexTriangle make_apex_triangle(const RootTriangle<float>& t, const glm::vec3& apex)
-{
-    const glm::vec3 a0 = t.v[0] - apex, a1 = t.v[1] - apex, a2 = t.v[2] - apex;
-    const glm::vec3 e1 = t.v[0] - t.v[2], e2 = t.v[1] - t.v[0];
-    ApexTriangle p;
-    p.side[0] = cross_as_written<float>(t.v[2] - t.v[1], a1 + a2);
-    p.side[1] = cross_as_written<float>(e1, a2 + a0);
-    p.side[2] = cross_as_written<float>(e2, a0 + a1);
-    const float unit = edge_unit(t.edge);
-    p.normal = cross_as_written<float>(e1 * unit, e2 * unit);
-    p.height = dot_as_written<float>(p.normal, a0);
-    p.span = largest_component<float>(e1 * unit) * largest_component<float>(e2 * unit);
-    p.distance = largest_component<float>(a0) + t.edge;
-    p.edge = t.edge;
-    p.set_volume();
-    return p;
-}
 
 HWY_INLINE ApexTriangle take_apex_triangle(const BeamTriangles& triangles, const TrianglePack& pack, int lane)
 {
@@ -53,7 +33,7 @@ HWY_INLINE ApexTriangle take_apex_triangle(const BeamTriangles& triangles, const
     p.span = triangles.span[lane];
     p.distance = triangles.distance[lane];
     p.edge = pack.edge[lane];
-    p.set_volume();
+    p.has_volume = p.span * p.distance > least_bound<float>;
     return p;
 }
 

@@ -30,6 +30,17 @@ HWY_INLINE std::uint32_t bits_of(D d, Mask mask)
     return bits & ((2u << (hn::Lanes(d) - 1)) - 1);
 }
 
+/// longest_edge() of triangle.h, of triangles in lanes.
+/// v  corner, axis
+template <class V>
+HWY_INLINE V longest_edges(const V (&v)[3][3])
+{
+    auto longest = hn::Zero(PackLanes());
+    for (int axis = 0; axis < 3; ++axis)
+        for (int k = 0; k < 3; ++k) longest = hn::Max(longest, hn::Abs(hn::Sub(v[(k + 1) % 3][axis], v[k][axis])));
+    return longest;
+}
+
 /// A ray as boxes and grids see it. It starts where the ray enters the structure, at `shift` along the ray, so that its
 /// numbers are no larger than the structure's; its own t, walk t, counts from there.
 struct WalkRay {

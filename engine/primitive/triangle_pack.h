@@ -26,10 +26,14 @@ struct alignas(64) TrianglePack {
         t.edge = edge[lane];
         return t;
     }
-    void set(int lane, const RootTriangle<float>& t, std::uint32_t id_and_bit)
+    void set_corners(int lane, const glm::vec3 (&corners)[3])
     {
         for (int corner = 0; corner < 3; ++corner)
-            for (int axis = 0; axis < 3; ++axis) v[corner][axis][lane] = t.v[corner][axis];
+            for (int axis = 0; axis < 3; ++axis) v[corner][axis][lane] = corners[corner][axis];
+    }
+    void set(int lane, const RootTriangle<float>& t, std::uint32_t id_and_bit)
+    {
+        set_corners(lane, t.v);
         edge[lane] = t.edge;
         id[lane] = id_and_bit;
     }
