@@ -190,7 +190,7 @@ Box BoxMaker::make_in(const BoxPlan& plan, const Transform& local_from_node, flo
 
 template <typename Real>
 Box BoxMaker::make_in_root(const BoxPlan& plan, const RootGeometry<Real>& geometry, const Transform& root_from_node,
-                            const Executor* executor, std::uint64_t& peak_bytes) const
+                           const Executor* executor, std::uint64_t& peak_bytes) const
 {
     Box box;
     box.local_from_node = root_from_node;
@@ -206,8 +206,8 @@ Box BoxMaker::make_in_root(const BoxPlan& plan, const RootGeometry<Real>& geomet
 }
 
 template Box BoxMaker::make_in_root(const BoxPlan&, const RootGeometry<float>&, const Transform&, const Executor*,
-                                     std::uint64_t&) const;
+                                    std::uint64_t&) const;
 template Box BoxMaker::make_in_root(const BoxPlan&, const RootGeometry<double>&, const Transform&, const Executor*,
-                                     std::uint64_t&) const;
+                                    std::uint64_t&) const;
 
 }  // namespace firstray::inline v0::obb

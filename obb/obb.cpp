@@ -131,13 +131,8 @@ void ObbStrategy<Real>::move_box(std::uint32_t number, const Pose& pose)
         move_rigid(number, root_from_node);
     else
         regrid(number, root_from_node);
-    placed_[number] = {&boxes_[number],
-                       &plan,
-                       nullptr,
-                       own_.hits == Hits::root || !is_kept,
-                       plan.group,
-                       place.loose,
-                       place.local_from_root};
+    const bool in_root = own_.hits == Hits::root || !is_kept;
+    placed_[number] = {&boxes_[number], &plan, nullptr, in_root, plan.group, place.loose, place.local_from_root};
 }
 
 template <typename Real>

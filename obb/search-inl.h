@@ -95,8 +95,7 @@ struct World {
     {
         const GridStructure* inside = placed.box->enter();
         const BoxPrimitives<Real> primitives{target, *placed.box, placed.group, placed.in_root, ray};
-        if (HWY_UNLIKELY(!inside) ||
-            largest_component<double>(o) > far_away * static_cast<double>(inside->pad))
+        if (HWY_UNLIKELY(!inside) || largest_component<double>(o) > far_away * static_cast<double>(inside->pad))
             return one_by_one(quest, *placed.plan, primitives);
         Search<Quest, BoxPrimitives<Real>> search{quest, primitives, inside};
         return search.begin(o, d, target.precision == Precision::fast ? loose : 0.0f) &&
@@ -138,7 +137,8 @@ struct BeamWorld {
         if (HWY_LIKELY(inside)) {
             Beam local;
             PacketMask straight = transform(quest.root, packets, placed.local_from_root, local);
-            straight &= ~too_wide(local, straight, inside->grids[0], inside->grids[0].fine_length(), most_columns_in_box);
+            straight &=
+                ~too_wide(local, straight, inside->grids[0], inside->grids[0].fine_length(), most_columns_in_box);
             const BoxBeamPrimitives primitives{*target.geometry, placed.group};
             BeamSearch<BeamQuest, BoxBeamPrimitives> search{quest, local, primitives, inside,
                                                             target.precision == Precision::fast ? placed.loose : 0.0f};

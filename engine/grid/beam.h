@@ -70,11 +70,13 @@ inline constexpr int fewest_rays = 5;
 inline constexpr float most_columns = 2.5f;
 
 /// The same for rays that have no end yet, where the scene ends: most of them will end long before. (Of 1,024 rays over
-/// ten million triangles each packet covers thousands of columns, and a beam takes a thousand times as long as its rays.)
+/// ten million triangles each packet covers thousands of columns, and a beam takes a thousand times as long as its
+/// rays.)
 inline constexpr float most_columns_without_end = 64.0f;
 
-/// The same in a box of its own, which rays mostly pass, wherever they end. (Robots at 80x59 take half the time that they
-/// take as beams alone; between 8 and 128 the differences are noise, at 2.5 whole pictures take half as long again.)
+/// The same in a box of its own, which rays mostly pass, wherever they end. (Robots at 80x59 take half the time that
+/// they take as beams alone; between 8 and 128 the differences are noise, at 2.5 whole pictures take half as long
+/// again.)
 inline constexpr float most_columns_in_box = 64.0f;
 
 /// Which of a beam's packets were tested against the triangles met of late: a triangle that stands in many cells is

@@ -198,8 +198,8 @@ HWY_INLINE std::uint32_t make_beam_triangles(const TrianglePack& pack, const Bea
         if (met == 0) continue;
         found |= met << lane;
 
-        const V unit = hn::BitCast(d, hn::Sub(hn::Set(du, 254u << 23),
-                                              hn::And(hn::BitCast(du, edge), hn::Set(du, 255u << 23))));  // edge_unit
+        const V unit = hn::BitCast(
+            d, hn::Sub(hn::Set(du, 254u << 23), hn::And(hn::BitCast(du, edge), hn::Set(du, 255u << 23))));  // edge_unit
         for (int i = 1; i < 3; ++i)
             for (int axis = 0; axis < 3; ++axis) e[i][axis] = hn::Mul(e[i][axis], unit);
         V normal[3];

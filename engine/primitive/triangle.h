@@ -174,8 +174,8 @@ FIRSTRAY_INLINE TriangleHit<float> intersect(const RootTriangle<float>& triangle
     const float distance = largest_component<float>(triangle.v[0] - origin) + triangle.edge;
     const float length = largest_component<float>(direction);
     const TrianglePlane<float> plane = triangle_plane(triangle.v, origin, direction, edge_unit(triangle.edge));
-    const bool is_sloped = std::abs(plane.slope) > least_slope * (plane.span * length) &&
-                           plane.span * distance > least_bound<float>;
+    const bool is_sloped =
+        std::abs(plane.slope) > least_slope * (plane.span * length) && plane.span * distance > least_bound<float>;
     float t = plane.height / plane.slope;
     if (!is_sloped || !(std::abs(t) * length >= least_distance * distance)) {
         // Near a large triangle float cannot place the hit well, but mostly well enough to see that it does not count.
