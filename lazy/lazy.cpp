@@ -173,7 +173,7 @@ void LazyStrategy<Real>::place_primitives(const Pose& pose)
     PrimitiveList primitives;
     for (std::uint32_t group = 1; group < scene_.groups.size(); ++group) {
         if (!pose.is_visible(scene_.groups[group])) continue;
-        geometry_.touch(group);
+        geometry_.touch(group, options_.executor);
         geometry_.list(group, primitives);
     }
     std::vector<Item> items;

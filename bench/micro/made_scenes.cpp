@@ -68,10 +68,8 @@ void add_deforming(Scene& scene, const Corners& before, const Corners& after)
     for (int time = 0; time < 2; ++time) {
         DeformingKey& key = scene.deforming_keys.emplace_back();
         key.time = time;
-        for (int k = 0; k < 3; ++k) {
-            key.position[k] = (time == 0 ? before : after)[static_cast<std::size_t>(k)];
-            key.normal[k] = {0.0f, 0.0f, 1.0f};
-        }
+        for (int k = 0; k < 3; ++k) key.position[k] = (time == 0 ? before : after)[static_cast<std::size_t>(k)];
+        for (glm::vec3& normal : scene.deforming_normals.emplace_back().corner) normal = {0.0f, 0.0f, 1.0f};
     }
 }
 

@@ -193,19 +193,18 @@ void SceneBuilder::add(Quadric quadric, const Lexer& in)
     group.quadrics.push_back(quadric);
 }
 
-void SceneBuilder::add(std::vector<DeformingKey> keys, const Lexer& in)
+void SceneBuilder::add(std::vector<DeformingKey> keys, std::vector<DeformingNormals> normals, const Lexer& in)
 {
     check_room(1, in);
     check_vertices(3, vertices_, in);
     vertices_ += 3;
     Draft& group = draft(true);
     group.triangle_parts.push_back(make_part(group.triangles.size(), 1, none));
-    const glm::dmat3 normals = normal_matrix(open_.back().owner_from_node);
     for (DeformingKey& key : keys)
-        for (int k = 0; k < 3; ++k) {
-            key.position[k] = baked(key.position[k], in);
-            key.normal[k] = glm::vec3(normals * glm::dvec3(key.normal[k]));
-        }
+        for (glm::dvec3& position : key.position) position = baked(position, in);
+    const glm::dmat3 owner_from_normal = normal_matrix(open_.back().owner_from_node);
+    for (DeformingNormals& at_key : normals)
+        for (glm::vec3& normal : at_key.corner) normal = glm::vec3(owner_from_normal * glm::dvec3(normal));
     group.deforming.push_back(
         {static_cast<std::uint32_t>(scene.deforming_keys.size()), static_cast<std::uint32_t>(keys.size())});
     TriangleIndices indices;
@@ -213,6 +212,7 @@ void SceneBuilder::add(std::vector<DeformingKey> keys, const Lexer& in)
     group.triangles.push_back(indices);
     group.positions.insert(group.positions.end(), std::begin(keys[0].position), std::end(keys[0].position));
     scene.deforming_keys.insert(scene.deforming_keys.end(), keys.begin(), keys.end());
+    scene.deforming_normals.insert(scene.deforming_normals.end(), normals.begin(), normals.end());
 }
 
 void SceneBuilder::set_animation(Animation animation)

@@ -48,7 +48,7 @@ public:
     std::uint32_t texture(const std::string& name, const Lexer& in);
     void add(TriangleList list, const Lexer& in);
     void add(Quadric quadric, const Lexer& in);  ///< group_from_quadric: open_from_quadric
-    void add(std::vector<DeformingKey> keys, const Lexer& in);
+    void add(std::vector<DeformingKey> keys, std::vector<DeformingNormals> normals, const Lexer& in);
     void set_animation(Animation animation);                      ///< replaces an earlier one of the same name
     void add_light(const Light& light, const std::string& name, const Lexer& in);  ///< name: empty unless animated
 

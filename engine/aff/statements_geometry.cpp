@@ -159,17 +159,20 @@ void read_deforming_triangle(Reading& r)
     if (count > r.limits.keys) r.in.over_limit("keys in one track", r.limits.keys, "keys");
     std::vector<DeformingKey> keys;
     keys.reserve(std::min(count, r.in.remaining() / 38));  // 19 numbers each
+    std::vector<DeformingNormals> normals;
+    normals.reserve(keys.capacity());
     for (std::size_t i = 0; i < count; ++i) {
         DeformingKey key;
+        DeformingNormals& at_key = normals.emplace_back();
         key.time = r.in.number();
         if (!keys.empty() && key.time < keys.back().time) r.in.fault("a time not before the last key's");
         for (int k = 0; k < 3; ++k) {
             key.position[k] = r.in.point();
-            key.normal[k] = r.in.vec3();
+            at_key.corner[k] = r.in.vec3();
         }
         keys.push_back(key);
     }
-    r.builder.add(std::move(keys), r.in);
+    r.builder.add(std::move(keys), std::move(normals), r.in);
 }
 
 /// An index line holds three vertex indices, then three normal indices if there are normals, then three of the texture

@@ -7,6 +7,7 @@
 
 #include "engine/grid/bin.h"
 #include "engine/grid/entry_kernels.h"
+#include "engine/grid/fill_lists.h"
 #include "engine/grid/pack_lists.h"
 #include "engine/grid/resolution.h"
 #include "engine/grid/survey.h"
@@ -170,9 +171,7 @@ void fill(GridStructure& structure, const Beginning& begun, const GridEntries& e
     resize_for_overwrite(structure.boxes, filling.counts.boxes);
     structure.quadrics.resize(filling.counts.quadrics);
     fill_list(structure.large, {begun.large, begun.bounds}, entries, structure);
-    for_pieces(executor, filling.lists.size(), 64, [&](std::size_t first, std::size_t last) {
-        for (std::size_t i = first; i < last; ++i) fill_list(structure.lists[i], filling.lists[i], entries, structure);
-    });
+    fill_lists(filling.lists, entries, executor, structure);
 }
 
 /// Forgets what a structure held, but keeps its memory.

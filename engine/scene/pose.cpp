@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <span>
 
 #include "engine/core/search_ray.h"
 
@@ -12,15 +11,20 @@ namespace {
 
 /// The two keys between which a time lies, and how far between them.
 struct Between {
-    const DeformingKey *a, *b;
+    const Scene& scene;
+    std::uint32_t a, b;
     double s;
 
-    glm::dvec3 position(int corner) const { return a->position[corner] * (1.0 - s) + b->position[corner] * s; }
+    glm::dvec3 position(int corner) const
+    {
+        return scene.deforming_keys[a].position[corner] * (1.0 - s) + scene.deforming_keys[b].position[corner] * s;
+    }
     /// Normals blend as written: their lengths are weights (museum's face normals are far shorter than its vertex
     /// normals); only the result is normalised.
     glm::dvec3 normal(int corner) const
     {
-        const glm::dvec3 n = glm::dvec3(a->normal[corner]) * (1.0 - s) + glm::dvec3(b->normal[corner]) * s;
+        const glm::dvec3 n = glm::dvec3(scene.deforming_normals[a].corner[corner]) * (1.0 - s) +
+                             glm::dvec3(scene.deforming_normals[b].corner[corner]) * s;
         const double length = glm::length(n);
         return length > 0.0 ? n / length : n;
     }
@@ -28,12 +32,13 @@ struct Between {
 
 Between keys_at(const Scene& scene, const DeformingTriangle& triangle, double time)
 {
-    const std::span keys(&scene.deforming_keys[triangle.first_key], triangle.keys);
-    if (time <= keys.front().time) return {&keys.front(), &keys.front(), 0.0};
-    for (std::size_t i = 0; i + 1 < keys.size(); ++i)
+    const std::vector<DeformingKey>& keys = scene.deforming_keys;
+    const std::uint32_t first = triangle.first_key, last = first + triangle.keys - 1;
+    if (time <= keys[first].time) return {scene, first, first, 0.0};
+    for (std::uint32_t i = first; i < last; ++i)
         if (time < keys[i + 1].time)
-            return {&keys[i], &keys[i + 1], (time - keys[i].time) / (keys[i + 1].time - keys[i].time)};
-    return {&keys.back(), &keys.back(), 0.0};
+            return {scene, i, i + 1, (time - keys[i].time) / (keys[i + 1].time - keys[i].time)};
+    return {scene, last, last, 0.0};
 }
 
 bool has_keys(const Group& group)
@@ -46,45 +51,56 @@ const DeformingTriangle& deforming_triangle(const Scene& scene, const Group& gro
     return scene.deforming[group.first_deforming + index];
 }
 
-template <typename Vec>
-bool are_in_range(const Vec* points, std::size_t count)
+/// Rounds a place; returns whether it is in range. By component and without branches: every vertex comes here, and a
+/// copy of a whole point would wait for its parts to be written.
+template <typename Real>
+bool put(const glm::dvec3& place, glm::vec<3, Real, glm::defaultp>& out)
 {
-    constexpr auto farthest = static_cast<typename Vec::value_type>(farthest_place);
-    bool all = true;
-    for (std::size_t i = 0; i < count; ++i)
-        for (int axis = 0; axis < 3; ++axis) all = all & (std::abs(points[i][axis]) <= farthest);
-    return all;
+    constexpr auto farthest = static_cast<Real>(farthest_place);
+    const auto x = static_cast<Real>(place.x), y = static_cast<Real>(place.y), z = static_cast<Real>(place.z);
+    out.x = x;
+    out.y = y;
+    out.z = z;
+    return (std::abs(x) <= farthest) & (std::abs(y) <= farthest) & (std::abs(z) <= farthest);
 }
 
 template <typename Real>
 bool carry(const Pose& pose, const Group& group, glm::vec<3, Real, glm::defaultp>* out, const Executor* executor)
 {
-    using Vec = glm::vec<3, Real, glm::defaultp>;
     constexpr std::size_t grain = 16384;
     const Scene& scene = *pose.scene;
     const Transform& root_from_node = pose.root_from_node[group.node];
     std::atomic<bool> all_in_range{true};
-    const auto check = [&](const Vec* points, std::size_t count) {
-        if (!are_in_range(points, count)) all_in_range.store(false, std::memory_order_relaxed);
-    };
     if (!has_keys(group)) {
         for_pieces(executor, group.vertices, grain, [&](std::size_t begin, std::size_t end) {
             const auto first = group.first_vertex + static_cast<std::uint32_t>(begin);
-            for (std::size_t i = begin; i < end; ++i)
-                out[i] = Vec(root_from_node.point(scene.position(first + static_cast<std::uint32_t>(i - begin))));
-            check(out + begin, end - begin);
+            bool all = true;
+            for (std::size_t i = begin; i < end; ++i) {
+                const glm::dvec3 from = scene.position(first + static_cast<std::uint32_t>(i - begin));
+                all &= put(root_from_node.point(from), out[i]);
+            }
+            if (!all) all_in_range.store(false, std::memory_order_relaxed);
         });
         return all_in_range;
     }
+    // The processor foresees which memory comes next, but not over the ends of pages: keys of a triangle so far ahead
+    // are asked for, in this loop, because g++ takes a function that does no more for one that does nothing.
+    constexpr std::size_t ahead = 16;
+    const std::size_t last_key = scene.deforming_keys.size() - 1;
     for_pieces(executor, group.triangles, grain, [&](std::size_t begin, std::size_t end) {
+        bool all = true;
         for (std::size_t i = begin; i < end; ++i) {
-            const Between keys =
-                keys_at(scene, deforming_triangle(scene, group, static_cast<std::uint32_t>(i)), pose.time);
-            const glm::uvec3 place = scene.triangles[group.first_triangle + i].vertex - group.first_vertex;
-            Vec corners[3];
-            for (int k = 0; k < 3; ++k) out[place[k]] = corners[k] = Vec(root_from_node.point(keys.position(k)));
-            check(corners, 3);
+            const DeformingTriangle& triangle = deforming_triangle(scene, group, static_cast<std::uint32_t>(i));
+            const Between keys = keys_at(scene, triangle, pose.time);
+            const DeformingKey& a = scene.deforming_keys[std::min(keys.a + ahead * triangle.keys, last_key)];
+            const DeformingKey& b = scene.deforming_keys[std::min(keys.b + ahead * triangle.keys, last_key)];
+            __builtin_prefetch(&a.position[0].x);  // two keys in a row: a line of cache each
+            __builtin_prefetch(&a.position[2].z);
+            __builtin_prefetch(&b.position[2].x);
+            for (std::size_t k = 0; k < 3; ++k)
+                all &= put(root_from_node.point(keys.position(static_cast<int>(k))), out[3 * i + k]);
         }
+        if (!all) all_in_range.store(false, std::memory_order_relaxed);
     });
     return all_in_range;
 }

@@ -91,14 +91,19 @@ struct Quadric {
     Transform group_from_quadric;  ///< from the canonical system
 };
 
-/// One key of a deforming triangle. Normals as written, not normalised.
+/// One key of a deforming triangle, without its normals: carrying reads all keys, but no normals.
 struct DeformingKey {
     double time = 0.0;       ///< seconds
     glm::dvec3 position[3];  ///< of the corners
-    glm::vec3 normal[3];     ///< of the corners
 };
 
-/// A triangle given at several times ("tpa"); its keys are [first_key, first_key + keys) of Scene::deforming_keys.
+/// Normals at a key of a deforming triangle, as written, not normalised.
+struct DeformingNormals {
+    glm::vec3 corner[3];  ///< of the corners
+};
+
+/// A triangle given at several times ("tpa"); its keys are [first_key, first_key + keys) of Scene::deforming_keys. The
+/// i-th one of a group has the group's vertices 3 i, 3 i + 1 and 3 i + 2.
 struct DeformingTriangle {
     std::uint32_t first_key = 0, keys = 0;  ///< in Scene::deforming_keys
 };
@@ -153,8 +158,9 @@ struct Scene {
     std::vector<glm::vec2> uvs;                ///< texture coordinates
     std::vector<TriangleIndices> triangles;    ///< by Scene::triangle_slot; groups stand in order
     std::vector<Quadric> quadrics;             ///< groups stand in order
-    std::vector<DeformingTriangle> deforming;  ///< their `triangles` entries have a vertex triple of their own each
+    std::vector<DeformingTriangle> deforming;  ///< groups stand in order
     std::vector<DeformingKey> deforming_keys;  ///< triangle by triangle
+    std::vector<DeformingNormals> deforming_normals;  ///< likewise, by key
 
     std::vector<std::uint32_t> part_of_primitive;  ///< by PrimitiveId
 

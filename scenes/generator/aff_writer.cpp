@@ -138,14 +138,14 @@ void AffWriter::cone(const glm::dvec3& base, double base_radius, const glm::dvec
     put("{} {} {} {}\n", number(apex.x), number(apex.y), number(apex.z), number(apex_radius));
 }
 
-void AffWriter::deforming_triangle(std::span<const DeformingKey> keys)
+void AffWriter::deforming_triangle(std::span<const DeformingKey> keys, std::span<const DeformingNormals> normals)
 {
     put("tpa {}\n", keys.size());
-    for (const DeformingKey& key : keys) {
-        put("{}\n", number(key.time));
+    for (std::size_t at = 0; at < keys.size(); ++at) {
+        put("{}\n", number(keys[at].time));
         for (int i = 0; i < 3; ++i) {
-            const glm::dvec3& p = key.position[i];
-            const glm::vec3& n = key.normal[i];
+            const glm::dvec3& p = keys[at].position[i];
+            const glm::vec3& n = normals[at].corner[i];
             put("{} {} {} {} {} {}\n", number(p.x), number(p.y), number(p.z), number(n.x), number(n.y), number(n.z));
         }
     }

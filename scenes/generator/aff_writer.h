@@ -44,7 +44,8 @@ public:
     void mesh(const Mesh& mesh, std::string_view texture = {});
     void sphere(const glm::dvec3& centre, double radius);
     void cone(const glm::dvec3& base, double base_radius, const glm::dvec3& apex, double apex_radius);
-    void deforming_triangle(std::span<const DeformingKey> keys);
+    /// normals  by key
+    void deforming_triangle(std::span<const DeformingKey> keys, std::span<const DeformingNormals> normals);
 
     void open(const Placement& placement);  ///< `xs`
     void open(std::string_view name);       ///< `x`: moved by keys() of that name

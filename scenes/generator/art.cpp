@@ -80,6 +80,7 @@ private:
     void triangle(const std::array<int, 3>& column, const std::array<int, 3>& row)
     {
         std::array<DeformingKey, shapes> keys;
+        std::array<DeformingNormals, shapes> normals;
         for (std::size_t k = 0; k < shapes; ++k) {
             keys[k].time = static_cast<double>(k) * seconds_per_shape;
             for (std::size_t c = 0; c < 3; ++c) {
@@ -88,11 +89,11 @@ private:
                 const glm::dvec3 p = point(all_shapes[k], phase_, u, v), n = normal(all_shapes[k], phase_, u, v);
                 for (int axis = 0; axis < 3; ++axis) {
                     keys[k].position[c][axis] = cut(p[axis], 1e-4);
-                    keys[k].normal[c][axis] = static_cast<float>(cut(n[axis], 1e-2));
+                    normals[k].corner[c][axis] = static_cast<float>(cut(n[axis], 1e-2));
                 }
             }
         }
-        files_.out().deforming_triangle(keys);
+        files_.out().deforming_triangle(keys, normals);
     }
 
     SplitWriter files_;

@@ -110,7 +110,8 @@ TEST_CASE("every statement of the writer reads back as what it says")
     out.sphere({1, 2, 3}, 0.5);
     out.cone({0, 0, 0}, 1.0, {0, 2, 0}, 0.5);
     const DeformingKey key{};
-    out.deforming_triangle(std::span(&key, 1));
+    const DeformingNormals normals{};
+    out.deforming_triangle(std::span(&key, 1), std::span(&normals, 1));
     out.include("part.aff", 0);
     out.finish();
 
