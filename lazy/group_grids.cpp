@@ -35,13 +35,29 @@ GroupGrids<Real>::~GroupGrids()
 template <typename Real>
 const LazyGrid* GroupGrids<Real>::enter_first(std::uint32_t group, std::uint64_t rays) const
 {
-    const auto make_one = [&] { return grids_[group].get_or_make([&] { return make(group); }); };
+    const auto make_one = [&]() -> const LazyGrid* {
+        if (!carry(group)) return nullptr;
+        return grids_[group].get_or_make([&] { return make(group); });
+    };
     if (!chooser_) return make_one();
     const LazyGrid* const made = chooser_->enter(group, rays, chooser_->group(group), 0.0, make_one);
-    if (!made && is_carried_first(chooser_->rule().costs)) geometry_.touch(group);
+    if (!made && is_carried_first(chooser_->rule().costs)) carry(group);
     return made;
 }
 
+/// Whether a group is carried now; not while another thread is at it, or where there is no memory for it.
+template <typename Real>
+bool GroupGrids<Real>::carry(std::uint32_t group) const
+{
+    try {
+        return geometry_.touch(group);
+    } catch (const std::bad_alloc&) {
+        ledger_.note_refused();
+        return false;
+    }
+}
+
+/// Of a group that is carried.
 template <typename Real>
 std::unique_ptr<LazyGrid> GroupGrids<Real>::make(std::uint32_t group) const
 {
@@ -51,7 +67,6 @@ std::unique_ptr<LazyGrid> GroupGrids<Real>::make(std::uint32_t group) const
     if (!ledger_.charge(guess)) return nullptr;
     std::unique_ptr<LazyGrid> made;
     try {
-        geometry_.touch(group);  // nobody else does
         PrimitiveList primitives;
         geometry_.list(group, primitives);
         made = std::make_unique<LazyGrid>(make_entries(geometry_, primitives, nullptr), shape_of(primitives.size()),

@@ -48,6 +48,7 @@ public:
 
 private:
     const LazyGrid* enter_first(std::uint32_t group, std::uint64_t rays) const;
+    bool carry(std::uint32_t group) const;
     std::unique_ptr<LazyGrid> make(std::uint32_t group) const;
     VoxelChoice choice_in(std::uint32_t group) const;
     GridOptions shape_of(std::size_t primitives) const;

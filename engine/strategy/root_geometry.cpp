@@ -98,7 +98,12 @@ bool RootGeometry<Real>::carry_if_first(std::uint32_t group, const Executor* exe
     Carried expected = Carried::no;
     if (!carried_[group].compare_exchange_strong(expected, Carried::begun, std::memory_order_acquire))
         return expected == Carried::yes;
-    carry(*pose_, group, executor);
+    try {
+        carry(*pose_, group, executor);
+    } catch (...) {  // no memory for the threads' shares: another may try again
+        carried_[group].store(Carried::no, std::memory_order_relaxed);
+        throw;
+    }
     return true;
 }
 
