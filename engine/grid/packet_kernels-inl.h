@@ -135,7 +135,7 @@ HWY_INLINE PacketHits test_packet(const ApexTriangle& p, PrimitiveId id, bool ex
 
         const auto is_certain = exact_signs
                                     ? hn::And(is_bounded, hn::Or(hn::Gt(least, error), hn::Lt(most, hn::Neg(error))))
-                                    : (p.distance <= farthest_fast * p.edge ? is_sloped : hn::FirstN(d, 0));
+                                    : (is_fast_enough(p.span, p.edge, p.distance) ? is_sloped : hn::FirstN(d, 0));
         const auto hit = hn::And(maybe, hn::And(is_placed, is_certain));
         result.uncertain |= bits_of(d, hn::AndNot(hit, maybe)) << (lane - first);
 

@@ -67,6 +67,9 @@ inline constexpr float least_distance = 1.0f / 8;
 /// then a ray that it takes for a hit misses the triangle by a hundredth of its size at most.
 inline constexpr float farthest_fast = 1024.0f;
 
+/// ... and where span * distance stays below this: beyond, products in the sides may overflow.
+inline constexpr float largest_fast = 1e36f;
+
 /// Bound on float's error of t where it is sloped enough: this part of t plus distance / direction (64 * 50 half ulps).
 inline constexpr float quotient_error = 1.0f / 4096;
 
@@ -96,6 +99,14 @@ FIRSTRAY_INLINE Real dot_as_written(const glm::vec<3, Real, glm::defaultp>& a,
 FIRSTRAY_INLINE float edge_unit(float edge)
 {
     return std::bit_cast<float>((254u << 23) - (std::bit_cast<std::uint32_t>(edge) & (255u << 23)));
+}
+
+/// Whether float's sides are good enough for Precision::fast, as far as the triangle tells.
+/// span  of its edges times edge_unit(edge): what underflows or overflows does so in the triangle's own lengths
+FIRSTRAY_INLINE bool is_fast_enough(float span, float edge, float distance)
+{
+    const float unit = edge_unit(edge), volume = span * distance / unit / unit;
+    return distance <= farthest_fast * edge && volume > least_bound<float> && volume < largest_fast;
 }
 
 template <typename Real>
@@ -192,7 +203,7 @@ FIRSTRAY_INLINE TriangleHit<float> intersect(const RootTriangle<float>& triangle
     if (!exact_signs) {
         if (!(least >= 0.0f || most <= 0.0f)) return {};
         // Rounding alone would let rays meet needles far beyond their ends, and what is tiny from afar almost anywhere.
-        is_certain = is_sloped && distance <= farthest_fast * triangle.edge;
+        is_certain = is_sloped && is_fast_enough(plane.span, triangle.edge, distance);
     } else if (error >= least_bound<float> && least < -error && most > error) {
         return {};
     }
