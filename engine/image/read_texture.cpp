@@ -134,6 +134,12 @@ void PictureFile::check_header(const OIIO::ImageSpec& spec, std::uint64_t in_fil
         over_limit("claims " + size + " pixels in " + std::to_string(in_file) + " bytes, " + std::to_string(ratio) +
                        " for each",
                    limits_.ratio, "texture_ratio");
+    // Decoders take memory for whole strips and tiles, whatever the picture's size.
+    const auto rows = static_cast<std::uint64_t>(std::max(spec.get_int_attribute("tiff:RowsPerStrip"), 0));
+    const std::uint64_t piece = std::max<std::uint64_t>(rows * spec.scanline_bytes(true), spec.tile_bytes(true));
+    if (piece / std::max<std::uint64_t>(in_file, 1) > limits_.ratio)
+        over_limit("claims pieces of " + std::to_string(piece) + " bytes in " + std::to_string(in_file) + " bytes",
+                   limits_.ratio, "texture_ratio");
 }
 
 /// Grey, grey with alpha or colour with alpha, as colour alone.

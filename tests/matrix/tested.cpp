@@ -32,7 +32,7 @@ const TestedRow tested[] = {
      2724, "one of them", "firstray_command_tests"},
     {"T14", "killed at any moment: whole frames only; resumed, the same as undisturbed", "killed at any moment*", 59,
      "same", "firstray_command_tests"},
-    {"T16", "files of bad input: message with file:line:column and exit code", "every file of bad input*", 245, "exact",
+    {"T16", "files of bad input: message with file:line:column and exit code", "every file of bad input*", 246, "exact",
      "firstray_command_tests"},
     {"T16", "ways out of the scene's folder: nothing read outside", "files outside*,a link that*", 26, "none",
      "firstray_command_tests"},
