@@ -118,6 +118,34 @@ TEST_CASE("clusters of more than sixteen boxes have a supergrid of several cells
     CHECK(supergrid->dims.x * supergrid->dims.y * supergrid->dims.z > 4);
 }
 
+TEST_CASE("a corner out of range hides nothing else of its box, as long as it stays there and after")
+{
+    // Triangles of the group's own, and of a static transform in it, which may have a box of their own. The group
+    // shrinks to 1e-25 of its size, where all of it is in range, and grows back.
+    const std::string triangle = "p 3 -1e25 -1e25 5e24 1e25 -1e25 5e24 0 1e25 5e24 ",
+                      small = "p 3 -2 -2 3 2 -2 3 0 2 3 ";
+    const Scene scene = scene_of("a 0 4 5 x a {" + small + triangle + "xs 1 1 1 0 0 1 0 0.5 0 1 {" + small +
+                                 "p 3 0 0 4 1 0 4 0 3e38 4 } } k a { scale 6 -1 1 1 1 0 0 0 0 1 1 1 0 0 0 "
+                                 "1 1e-25 1e-25 1e-25 0 0 0 2 1 1 1 0 0 0 3 1 1 1 0 0 0 4 1 1 1 0 0 0 }");
+    std::vector<TestRay> rays;
+    for (int i = 0; i < 400; ++i) rays.push_back({{0, 0, -9}, {0.02 * (i % 20) - 0.2, 0.02 * (i / 20) - 0.2, 1}});
+    const auto list = make_list<float>(scene, {});
+    for (const obb::Options& variant : obb_variants()) {
+        CAPTURE(static_cast<int>(variant.groups));
+        CAPTURE(static_cast<int>(variant.inside));
+        const auto boxes = obb::make_obb<float>(scene, {}, variant);
+        for (const double time : {0.0, 1.0, 2.0}) {
+            CAPTURE(time);
+            const Pose now = pose(scene, time);
+            list->update(now);
+            boxes->update(now);
+            int hits = 0;
+            CHECK(differences(*list, *boxes, rays, hits) == 0);
+            CHECK(hits > 100);
+        }
+    }
+}
+
 TEST_CASE("a ray is sent into a box once, in however many cells it stands")
 {
     // A sheaf of 192 needles that rays along z pass between, in front of, among and behind scenery of many cells.
