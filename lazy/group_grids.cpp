@@ -84,6 +84,7 @@ std::unique_ptr<LazyGrid> GroupGrids<Real>::make(std::uint32_t group) const
 template <typename Real>
 std::uint64_t GroupGrids<Real>::gather(const PrimitiveList& primitives, const Aabb& room, const Executor* executor)
 {
+    gathered_ = true;
     MadeOnce<LazyGrid>& place = grids_[everything_that_moves];
     const std::unique_ptr<LazyGrid> old = place.take();
     GridEntries entries = make_entries(geometry_, primitives, executor);

@@ -35,6 +35,9 @@ public:
     /// The same, and nothing is made.
     const LazyGrid* made(std::uint32_t group) const { return grids_[group].get(); }
 
+    /// False: nothing that goes by this number transmits light.
+    bool may_transmit(std::uint32_t group) const { return gathered_ || geometry_.group_transmits(group); }
+
     /// LazyGrid::keep() of a group's grid; 0 where there is none. Runs alone.
     std::uint64_t keep(std::uint32_t group);
 
@@ -59,6 +62,7 @@ private:
     Ledger& ledger_;
     Chooser* chooser_;
     std::unique_ptr<MadeOnce<LazyGrid>[]> grids_;  ///< by group
+    bool gathered_ = false;                        ///< one grid holds all groups
 };
 
 }  // namespace firstray::inline v0::lazy

@@ -166,6 +166,7 @@ struct World {
     template <class Quest>
     HWY_NOINLINE bool enter(std::uint32_t group, Quest& quest) const
     {
+        if (!may_admit(quest.mask, target.groups->may_transmit(group))) return false;
         const LazyGrid* grid = target.groups->grid(group);
         if (HWY_UNLIKELY(!grid)) {
             const Group& g = target.scene->groups[group];
@@ -190,6 +191,7 @@ struct BeamWorld {
     template <class BeamQuest>
     HWY_NOINLINE void enter_beam(std::uint32_t group, BeamQuest& quest, PacketMask packets) const
     {
+        if (!may_admit(quest.mask, target.groups->may_transmit(group))) return;
         const BeamRootPrimitives primitives{*target.geometry};
         const LazyGrid* grid = target.groups->grid(group, rays_worth(packets));
         if (HWY_UNLIKELY(!grid)) return without_grid(group, quest, packets, primitives);

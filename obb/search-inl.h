@@ -80,6 +80,7 @@ struct World {
     bool enter(std::uint32_t number, Quest& quest) const
     {
         const Placed& placed = (*target.placed)[number];
+        if (!may_admit(quest.mask, target.geometry->group_transmits(placed.group))) return false;
         const glm::dvec3 o = placed.local_from_root.point(glm::dvec3(quest.ray.origin)),
                          d = placed.local_from_root.vector(glm::dvec3(quest.ray.direction));
         if (HWY_LIKELY(placed.in_root)) return search_box(quest, placed, quest.ray, o, d, placed.loose);
@@ -132,6 +133,7 @@ struct BeamWorld {
     HWY_NOINLINE void enter_beam(std::uint32_t number, BeamQuest& quest, PacketMask packets) const
     {
         const Placed& placed = (*target.placed)[number];
+        if (!may_admit(quest.mask, target.geometry->group_transmits(placed.group))) return;
         const GridStructure* inside = placed.in_root ? placed.box->enter() : nullptr;
         PacketMask alone = packets;
         if (HWY_LIKELY(inside)) {

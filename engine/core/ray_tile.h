@@ -24,6 +24,12 @@ inline bool admits(RayMask mask, bool transmits)
     return mask == RayMask::all || (mask == RayMask::transmitting) == transmits;
 }
 
+/// Whether a mask may admit any of some primitives, by whether any of them may transmit light.
+inline bool may_admit(RayMask mask, bool may_transmit)
+{
+    return mask != RayMask::transmitting || may_transmit;
+}
+
 /// What a ray cost: filled only where a tile asks for it.
 struct RayCost {
     std::uint32_t cells = 0;        ///< cells entered, empty ones included

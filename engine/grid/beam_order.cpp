@@ -46,6 +46,13 @@ void sort(std::uint32_t* keys, int count)
 
 struct Square {
     float lo_u = 1e30f, lo_v = 1e30f, hi_u = -1e30f, hi_v = -1e30f;
+    void add(float u, float v)
+    {
+        lo_u = std::min(lo_u, u);
+        hi_u = std::max(hi_u, u);
+        lo_v = std::min(lo_v, v);
+        hi_v = std::max(hi_v, v);
+    }
     float area(float least) const
     {
         return lo_u > hi_u ? 0.0f : std::max(hi_u - lo_u, least) * std::max(hi_v - lo_v, least);
@@ -57,10 +64,7 @@ Square around(const BeamPlaces& sorted, int begin, int end)
     Square s;
     for (int i = begin; i < end; ++i) {
         const std::uint32_t ray = sorted.key[i] & 0xffffu;
-        s.lo_u = std::min(s.lo_u, sorted.u[ray]);
-        s.hi_u = std::max(s.hi_u, sorted.u[ray]);
-        s.lo_v = std::min(s.lo_v, sorted.v[ray]);
-        s.hi_v = std::max(s.hi_v, sorted.v[ray]);
+        s.add(sorted.u[ray], sorted.v[ray]);
     }
     return s;
 }
@@ -85,6 +89,23 @@ void for_each_cluster(const BeamPlaces& sorted, int begin, int end, int shift, f
     for (int quarter = 0; quarter < 4; ++quarter)
         if (cut[quarter] < cut[quarter + 1])
             for_each_cluster(sorted, cut[quarter], cut[quarter + 1], shift - 2, areas[quarter], least, emit);
+}
+
+/// How many rays from one on make a packet that is narrow enough.
+int rays_in_packet(const BeamPlaces& sorted, int begin, int end)
+{
+    Square square;
+    float deepest = 0.0f;
+    int i = begin;
+    for (; i < std::min(end, begin + packet_size); ++i) {
+        const std::uint32_t ray = sorted.key[i] & 0xffffu;
+        square.add(sorted.u[ray], sorted.v[ray]);
+        deepest = std::max(deepest, sorted.depth[ray]);
+        const float columns =
+            ((square.hi_u - square.lo_u) * deepest + 1.0f) * ((square.hi_v - square.lo_v) * deepest + 1.0f);
+        if (columns > sorted.most_columns) break;
+    }
+    return i - begin;
 }
 
 }  // namespace
@@ -143,23 +164,55 @@ void BeamOrder::split(const RayTile<float>& tile)
     count = kept;
 }
 
+BeamPart BeamOrder::only(const BeamPart& part, PacketMask packets)
+{
+    BeamPart left{part.first, 0, part.axes};
+    for (; packets != 0; packets &= packets - 1) {
+        const int begin = __builtin_ctzll(packets) * packet_size, end = std::min(begin + packet_size, part.count);
+        for (int i = begin; i < end; ++i) lanes[part.first + left.count++] = in_order ? i : lanes[part.first + i];
+    }
+    in_order = false;
+    return left;
+}
+
 void BeamOrder::cluster(const BeamPart& part, BeamPlaces& places)
 {
     sort(places.key, part.count);
-    std::int32_t moved[capacity];
+    std::int32_t sorted[capacity];
     for (int i = 0; i < part.count; ++i) {
         const int ray = static_cast<int>(places.key[i] & 0xffffu);
-        moved[i] = in_order ? ray : lanes[part.first + ray];
+        sorted[i] = in_order ? ray : lanes[part.first + ray];
     }
-    std::copy(moved, moved + part.count, lanes + part.first);
     in_order = false;
+    packed_ = 0;
     const float least = std::max(places.wide_u, places.wide_v) / 256.0f;
-    for_each_cluster(places, 0, part.count, 30, places.wide_u * places.wide_v, least, [&](int begin, int end) {
-        if (end - begin >= fewest_rays)
-            add({part.first + begin, end - begin, part.axes});
-        else
-            for (int i = begin; i < end; ++i) single[singles++] = lanes[part.first + i];
-    });
+    for_each_cluster(places, 0, part.count, 30, places.wide_u * places.wide_v, least,
+                     [&](int begin, int end) { pack(places, sorted, begin, end, part.axes); });
+}
+
+/// Rays that would be few in their packet go one by one.
+/// begin, end  in the order of `sorted`
+void BeamOrder::pack(const BeamPlaces& sorted, const std::int32_t* sorted_lanes, int begin, int end,
+                     const BeamAxes& axes)
+{
+    BeamPart part{capacity + packed_, 0, axes};
+    for (int i = begin, count; i < end; i += count) {
+        count = rays_in_packet(sorted, i, end);
+        if (count < fewest_rays) {
+            count = 1;
+            single[singles++] = sorted_lanes[i];
+            continue;
+        }
+        std::int32_t* const packet = lanes + capacity + packed_;
+        std::copy_n(sorted_lanes + i, count, packet);
+        std::fill_n(packet + count, packet_size - count, ~sorted_lanes[i]);
+        packed_ += packet_size;
+        part.count += packet_size;
+        if (part.count < capacity) continue;
+        add(part);
+        part = {capacity + packed_, 0, axes};
+    }
+    if (part.count > 0) add(part);
 }
 
 void BeamOrder::add(const BeamPart& part)

@@ -19,7 +19,8 @@ BeamAxes axes_of(const glm::vec3& direction);
 /// rays, which rescales them.
 inline constexpr float shortest_beam_ray = 0x1p-30f, longest_beam_ray = 0x1p30f;
 
-/// Rays that walk together: lanes[first] to lanes[first + count - 1].
+/// Rays that walk together: lanes[first] to lanes[first + count - 1], sixteen to a packet. ~lane stands for no ray: it
+/// fills up a packet where that lane's ray is.
 struct BeamPart {
     int first, count;
     BeamAxes axes;
@@ -31,15 +32,18 @@ struct BeamPlaces {
     /// By ray: its place on a Morton curve of 256 x 256 squares << 16 | its index in the part.
     alignas(64) std::uint32_t key[capacity];
     alignas(64) float u[capacity], v[capacity];  ///< slopes, by index in the part
+    alignas(64) float depth[capacity];           ///< where the ray ends or leaves the grid, in cells, by index
     float wide_u, wide_v;                        ///< extents of the slopes
+    float most_columns;                          ///< of cells that a packet may end in
 };
 
 /// Which rays of a tile make a beam.
 struct BeamOrder {
     static constexpr int capacity = RayTile<float>::capacity;
-    static constexpr int most_parts = 6 + capacity / fewest_rays;
-    std::int32_t lanes[capacity];   ///< the tile's, part after part
-    std::int32_t single[capacity];  ///< lanes of rays that are to be traced one by one
+    static constexpr int most_packets = capacity / fewest_rays;
+    static constexpr int most_parts = 6 + most_packets;
+    std::int32_t lanes[capacity + most_packets * packet_size];  ///< the tile's, part after part; then those of clusters
+    std::int32_t single[capacity];                              ///< lanes of rays that are to be traced one by one
     BeamPart parts[most_parts];
     int count = 0;  ///< parts
     int singles = 0;
@@ -52,12 +56,16 @@ struct BeamOrder {
     void take_all(int rays, const BeamAxes& axes);
     /// Rays along most rays' axis in one beam, the others by their own axes; what cannot be in a beam, one by one.
     void split(const RayTile<float>& tile);
-    /// Sorts a part's rays by their places, which are sorted too, and cuts it where they leave large gaps: the new
-    /// parts are appended.
+    /// Of a part, only the rays of some packets.
+    BeamPart only(const BeamPart& part, PacketMask packets);
+    /// Sorts a part's rays by their places, which are sorted too, cuts it where they leave large gaps, and puts them
+    /// into packets that are narrow where they end: the new parts, in place of those of the last call, are appended.
     void cluster(const BeamPart& part, BeamPlaces& places);
 
 private:
     void add(const BeamPart& part);
+    void pack(const BeamPlaces& sorted, const std::int32_t* sorted_lanes, int begin, int end, const BeamAxes& axes);
+    int packed_ = 0;  ///< lanes of clusters
 };
 
 }  // namespace firstray::inline v0

@@ -37,7 +37,7 @@ HWY_INLINE bool all_go_along(const RayTile<float>& tile, const BeamAxes& axes)
 }
 
 /// Loads rays of a tile into packets, in order; the last packet is filled up with rays that are done.
-/// lanes  the tile's, `count` of them, [1, 1024]; null: the first
+/// lanes  the tile's, `count` of them, [1, 1024], as BeamPart says; null: the first
 HWY_INLINE void load_rays(const RayTile<float>& tile, const std::int32_t* lanes, int count, BeamRays& rays)
 {
     const PackLanes d;
@@ -58,7 +58,9 @@ HWY_INLINE void load_rays(const RayTile<float>& tile, const std::int32_t* lanes,
             from = padded;
         }
         const bool in_order = !lanes && is_whole;
-        const auto index = in_order ? hn::Zero(di) : hn::LoadU(di, from);
+        const auto lane = in_order ? hn::Zero(di) : hn::LoadU(di, from);
+        const auto fills = hn::Lt(lane, hn::Zero(di));
+        const auto index = hn::IfThenElse(fills, hn::Not(lane), lane);
         const auto take = [&](const RayTile<float>::Lane& values) HWY_ATTR {
             return in_order ? hn::Load(d, values.data() + to) : hn::GatherIndex(d, values.data(), index);
         };
@@ -72,7 +74,9 @@ HWY_INLINE void load_rays(const RayTile<float>& tile, const std::int32_t* lanes,
         hn::Store(hn::Div(hn::Set(d, 1.0f), length), d, rays.inverse_length.data() + to);
         hn::Store(take(tile.t_min), d, rays.t_min.data() + to);
         const auto end = take(tile.t_max);
-        const auto is_ray = hn::FirstN(d, static_cast<std::size_t>(std::clamp(count - first, 0, kernel_lanes)));
+        const auto is_ray =
+            hn::AndNot(hn::RebindMask(d, fills),
+                       hn::FirstN(d, static_cast<std::size_t>(std::clamp(count - first, 0, kernel_lanes))));
         hn::Store(hn::IfThenElse(is_ray, end, hn::Set(d, -std::numeric_limits<float>::infinity())), d,
                   rays.t.data() + to);
         hn::Store(hn::Set(du, no_primitive), du, rays.id.data() + to);
@@ -146,26 +150,44 @@ HWY_INLINE void finish_beam(Beam& beam)
     }
 }
 
-/// Whether the packets of a beam lie in it as neighbours in a picture do; if not, its rays end on several surfaces and
-/// are better sorted.
-HWY_INLINE bool is_well_packed(Beam& beam)
+/// Finds the slopes between which all of a beam's are, as they are.
+HWY_INLINE void find_extent(Beam& beam)
 {
-    float sum = 0.0f;
     beam.lo[0] = beam.lo[1] = std::numeric_limits<float>::infinity();
     beam.hi[0] = beam.hi[1] = -std::numeric_limits<float>::infinity();
     for (int packet = 0; packet < beam.count; ++packet) {
-        sum += (beam.hi_u[packet] - beam.lo_u[packet]) * (beam.hi_v[packet] - beam.lo_v[packet]);
         beam.lo[0] = std::min(beam.lo[0], beam.lo_u[packet]);
         beam.hi[0] = std::max(beam.hi[0], beam.hi_u[packet]);
         beam.lo[1] = std::min(beam.lo[1], beam.lo_v[packet]);
         beam.hi[1] = std::max(beam.hi[1], beam.hi_v[packet]);
     }
+}
+
+/// Whether the packets of a beam lie in its extent as neighbours in a picture do; if not, its rays end on several
+/// surfaces and are better sorted.
+HWY_INLINE bool is_well_packed(const Beam& beam)
+{
+    float sum = 0.0f;
+    for (int packet = 0; packet < beam.count; ++packet)
+        sum += (beam.hi_u[packet] - beam.lo_u[packet]) * (beam.hi_v[packet] - beam.lo_v[packet]);
     const float all = (beam.hi[0] - beam.lo[0]) * (beam.hi[1] - beam.lo[1]);
     return beam.count <= 1 || (sum < 0.75f * all && sum > 0.2f * all);
 }
 
-/// Where the loaded rays lie among the beam's slopes.
-HWY_INLINE void find_places(const BeamRays& rays, const Beam& root, BeamPlaces& places)
+/// Rays that reach this depth have no end.
+inline constexpr float endless = 1e30f;
+
+/// The depth at which a beam leaves a grid.
+HWY_INLINE float depth_of_grid(const Beam& beam, const Grid& grid)
+{
+    const float side = beam.forward > 0.0f ? grid.hi()[beam.k] : grid.lo[beam.k];
+    return std::max(beam.forward * (side - beam.apex[2]), 0.0f);
+}
+
+/// Where the loaded rays lie in the beam's extent.
+/// top   null: there is no grid
+/// cell  length of one of its cells
+HWY_INLINE void find_places(const BeamRays& rays, const Beam& root, const Grid* top, float cell, BeamPlaces& places)
 {
     const PackLanes d;
     const hn::RebindToUnsigned<PackLanes> du;
@@ -180,9 +202,16 @@ HWY_INLINE void find_places(const BeamRays& rays, const Beam& root, BeamPlaces& 
     places.wide_v = std::max(root.hi[1] - root.lo[1], 1e-20f);
     const float scales[2] = {256.0f / places.wide_u, 256.0f / places.wide_v};
     float* const slopes[2] = {places.u, places.v};
+    const float per_length = top ? 1.0f / cell : 0.0f;
+    const auto farthest = hn::Set(d, top ? depth_of_grid(root, *top) * per_length : 0.0f);
+    auto longest = hn::Zero(d);
     for (int first = 0; first < rays.packets * packet_size; first += kernel_lanes) {
         const auto at = static_cast<std::size_t>(first);
-        const auto inverse = hn::Div(hn::Set(d, root.forward), hn::Load(d, rays.direction[root.k].data() + at));
+        const auto speed = hn::Mul(hn::Set(d, root.forward), hn::Load(d, rays.direction[root.k].data() + at));
+        const auto inverse = hn::Div(hn::Set(d, 1.0f), speed);
+        const auto reach = hn::Mul(speed, hn::Load(d, rays.t.data() + at));
+        longest = hn::Max(longest, reach);
+        hn::Store(hn::Min(hn::Mul(reach, hn::Set(d, per_length)), farthest), d, places.depth + first);
         auto key = hn::Iota(du, static_cast<std::uint32_t>(first));
         for (int side = 0; side < 2; ++side) {
             const auto slope = hn::Mul(hn::Load(d, rays.direction[axes[side]].data() + at), inverse);
@@ -194,6 +223,8 @@ HWY_INLINE void find_places(const BeamRays& rays, const Beam& root, BeamPlaces& 
         }
         hn::Store(key, du, places.key + first);
     }
+    const bool has_end = hn::GetLane(hn::MaxOfLanes(d, longest)) < endless;
+    places.most_columns = has_end ? most_columns : most_columns_without_end;
 }
 
 /// Of the packets asked for, those whose rays are so far apart, where they end or leave the grid, that each goes
@@ -203,14 +234,13 @@ HWY_INLINE void find_places(const BeamRays& rays, const Beam& root, BeamPlaces& 
 HWY_INLINE PacketMask too_wide(const Beam& beam, PacketMask asked, const Grid& grid, float cell, float most)
 {
     PacketMask wide = 0;
-    const float side = beam.forward > 0.0f ? grid.hi()[beam.k] : grid.lo[beam.k];
-    const float farthest = std::max(beam.forward * (side - beam.apex[2]), 0.0f);
+    const float farthest = depth_of_grid(beam, grid);
     for (; asked != 0; asked &= asked - 1) {
         const int packet = __builtin_ctzll(asked);
         const float depth = std::min(beam.reach[packet], farthest) / cell;
         const float columns = ((beam.hi_u[packet] - beam.lo_u[packet]) * depth + 1.0f) *
                               ((beam.hi_v[packet] - beam.lo_v[packet]) * depth + 1.0f);
-        if (columns > (beam.reach[packet] < 1e30f ? most : most_columns_without_end)) wide |= PacketMask{1} << packet;
+        if (columns > (beam.reach[packet] < endless ? most : most_columns_without_end)) wide |= PacketMask{1} << packet;
     }
     return wide;
 }
@@ -248,7 +278,7 @@ HWY_INLINE void store_hits(const BeamRays& rays, const std::int32_t* lanes, int 
     }
     for (; i < count; ++i) {
         const auto from = static_cast<std::size_t>(i), to = static_cast<std::size_t>(lanes ? lanes[i] : i);
-        if (rays.id[from] == no_primitive) continue;
+        if (rays.id[from] == no_primitive) continue;  // so are those that fill up packets
         tile.primitive[to] = rays.id[from];
         tile.t_max[to] = rays.t[from];
         tile.u[to] = rays.u[from];
@@ -267,45 +297,47 @@ HWY_NOINLINE void search_by_beams(RayTile<float>& tile, const Grid* top, const S
     BeamRays& rays = beam_rays_of_this_thread();
     Beam root;
     BeamOrder order;
-    const auto send = [&](const BeamPart& part) HWY_ATTR {
-        PacketMask wide = top ? leave_out_wide(root, rays, *top, cell) : 0;
-        finish_beam(root);
-        const std::int32_t* const lanes = order.lanes_of(part);
-        if (root.packets != 0) search(rays, root);
-        store_hits(rays, lanes, part.count, tile);
-        for (; wide != 0; wide &= wide - 1) {
-            const int first = __builtin_ctzll(wide) * packet_size;
-            for (int i = first; i < std::min(first + packet_size, part.count); ++i) one(lanes ? lanes[i] : i);
-        }
-    };
     const auto load = [&](const BeamPart& part) HWY_ATTR {
         load_rays(tile, order.lanes_of(part), part.count, rays);
         make_root_beam(rays, part.axes, root);
+    };
+    const auto send = [&](const BeamPart& part) HWY_ATTR {
+        finish_beam(root);
+        if (root.packets != 0) search(rays, root);
+        store_hits(rays, order.lanes_of(part), part.count, tile);
+    };
+    const auto send_alone = [&](int first) HWY_ATTR {
+        for (int i = first; i < order.singles; ++i) one(order.single[i]);
     };
     const BeamAxes main = axes_of(tile.direction_of(tile.count / 2));
     if (all_go_along(tile, main))
         order.take_all(tile.count, main);
     else
         order.split(tile);
-    for (int i = 0; i < order.singles; ++i) one(order.single[i]);
+    send_alone(0);
     const int parts = order.count;
     for (int p = 0; p < parts; ++p) {
-        const BeamPart part = order.parts[p];
+        BeamPart part = order.parts[p];
         load(part);
+        find_extent(root);
         if (is_well_packed(root)) {
+            const PacketMask wide = top ? leave_out_wide(root, rays, *top, cell) : 0;
             send(part);
-            continue;
+            if (wide == 0) continue;
+            part = order.only(part, wide);
+            load(part);
+            find_extent(root);
         }
-        const int first = order.count, single = order.singles;
         BeamPlaces places;
-        find_places(rays, root, places);
+        find_places(rays, root, top, cell, places);
+        const int single = order.singles;
         order.cluster(part, places);
-        for (int i = single; i < order.singles; ++i) one(order.single[i]);
-        for (int c = first; c < order.count; ++c) {
+        send_alone(single);
+        for (int c = parts; c < order.count; ++c) {
             load(order.parts[c]);
             send(order.parts[c]);
         }
-        order.count = first;
+        order.count = parts;
     }
 }
 

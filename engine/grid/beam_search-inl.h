@@ -49,6 +49,7 @@ struct BeamSearch {
 
     HWY_NOINLINE void list(const VoxelList& voxel, PacketMask packets)
     {
+        if (!may_admit(quest.mask, voxel.may_transmit)) return;
         const TrianglePack* packs = structure->packs.data() + voxel.first_pack;
         if (voxel.packs < boxed_packs) {
             if (voxel.packs == 1) pack(packs[0], packets);

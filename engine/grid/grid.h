@@ -57,6 +57,7 @@ struct VoxelList {
     std::uint32_t first_pack = 0, packs = 0;
     std::uint32_t first_boxes = 0;
     std::uint32_t first_quadric = 0, quadrics = 0;
+    bool may_transmit = true;  ///< false: nothing in it transmits light, and who looks for that need not look here
 
     std::uint32_t box_blocks() const { return packs < boxed_packs ? 0 : (packs + pack_size - 1) / pack_size; }
 };

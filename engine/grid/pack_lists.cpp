@@ -15,6 +15,14 @@ std::size_t count_triangles(std::span<const std::uint32_t> listed, const GridEnt
     return static_cast<std::size_t>(end - listed.begin());
 }
 
+bool any_transmits(std::span<const TrianglePack> packs)
+{
+    bool any = false;
+    for (const TrianglePack& pack : packs)
+        for (const std::uint32_t id : pack.id) any |= id >= transmitting_bit && id != no_primitive;
+    return any;
+}
+
 }  // namespace
 
 Aabb cell_box(const Grid& grid, std::uint32_t cell)
@@ -45,12 +53,13 @@ VoxelList reserve_list(std::span<const std::uint32_t> listed, const GridEntries&
     return list;
 }
 
-void fill_list(const VoxelList& list, const ListToFill& to_fill, const GridEntries& entries, GridStructure& structure)
+void fill_list(VoxelList& list, const ListToFill& to_fill, const GridEntries& entries, GridStructure& structure)
 {
     const std::size_t triangles = to_fill.entries.size() - list.quadrics;
     if (triangles > 0) fill_packs(list, entries, to_fill.entries.first(triangles), to_fill.box, structure);
     for (std::uint32_t q = 0; q < list.quadrics; ++q)
         structure.quadrics[list.first_quadric + q] = entries.ids[to_fill.entries[triangles + q]];
+    list.may_transmit = list.quadrics > 0 || any_transmits({structure.packs.data() + list.first_pack, list.packs});
 }
 
 }  // namespace firstray::inline v0

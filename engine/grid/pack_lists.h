@@ -23,7 +23,8 @@ struct PackCounts {
 /// The places in a structure, behind those counted already, of a list of these entries.
 VoxelList reserve_list(std::span<const std::uint32_t> listed, const GridEntries& entries, PackCounts& counts);
 
-/// Puts a list's entries into its places, which must exist. Different lists may be filled at the same time.
-void fill_list(const VoxelList& list, const ListToFill& to_fill, const GridEntries& entries, GridStructure& structure);
+/// Puts a list's entries into its places, which must exist, and notes what they are. Different lists may be filled at
+/// the same time.
+void fill_list(VoxelList& list, const ListToFill& to_fill, const GridEntries& entries, GridStructure& structure);
 
 }  // namespace firstray::inline v0

@@ -226,6 +226,7 @@ struct Search {
     /// Tests a voxel's primitives; returns whether the ray is done.
     HWY_INLINE bool list(const VoxelList& voxel, float t_enter)
     {
+        if (!may_admit(quest.mask, voxel.may_transmit)) return false;
         const TrianglePack* packs = structure->packs.data() + voxel.first_pack;
         if (voxel.packs < boxed_packs) {
             if (voxel.packs == 1 && pack(packs[0])) return true;

@@ -19,6 +19,7 @@ RootGeometry<Real>::RootGeometry(const Scene& scene)
     : scene_(scene),
       placed_(scene.quadrics.size()),
       transmits_(scene.primitive_count()),
+      group_transmits_(scene.groups.size()),
       carried_(scene.groups.size()),
       stood_(scene.groups.size()),
       is_there_(scene.groups.size()),
@@ -32,8 +33,9 @@ RootGeometry<Real>::RootGeometry(const Scene& scene)
         const Group& group = scene.groups[part.group];
         const PrimitiveId end = part.first + part.count,
                           quadrics = std::clamp(group.first + group.triangles, part.first, end);
-        std::fill(transmits_.begin() + part.first, transmits_.begin() + end,
-                  scene.materials[part.material].transmits());
+        const bool transmits = scene.materials[part.material].transmits();
+        std::fill(transmits_.begin() + part.first, transmits_.begin() + end, transmits);
+        if (transmits) group_transmits_[part.group] = 1;
         for (PrimitiveId id = part.first; id < quadrics; ++id)
             corners_[id] = scene.triangles[id - group.first + group.first_triangle].vertex + part.group;
         for (PrimitiveId id = quadrics; id < end; ++id)
@@ -168,6 +170,7 @@ template <typename Real>
 std::uint64_t RootGeometry<Real>::bytes() const
 {
     return vertices_.capacity() * sizeof(Vec) + corners_.capacity() * sizeof(glm::uvec3) + transmits_.capacity() +
+           group_transmits_.capacity() +
            (visible_.triangles.capacity() + visible_.quadrics.capacity()) * sizeof(PrimitiveId) +
            placed_.capacity() * sizeof(RootQuadric);
 }

@@ -81,6 +81,8 @@ public:
     std::uint64_t version() const { return version_; }
 
     bool transmits(PrimitiveId id) const { return transmits_[id] != 0; }
+    /// Whether anything in a group does.
+    bool group_transmits(std::uint32_t group) const { return group_transmits_[group] != 0; }
     std::uint64_t bytes() const;
 
 private:
@@ -97,6 +99,7 @@ private:
     mutable std::vector<RootQuadric> placed_;  ///< by index in Scene::quadrics
     RawVector<glm::uvec3> corners_;  ///< by PrimitiveId: of a triangle, into vertices_; of a quadric, x: into placed_
     std::vector<std::uint8_t> transmits_;                ///< by PrimitiveId
+    std::vector<std::uint8_t> group_transmits_;          ///< by group
     mutable std::vector<std::atomic<Carried>> carried_;  ///< by group
     std::vector<Transform> stood_;                       ///< by group: root_from_node at the last update
     std::vector<std::uint8_t> is_there_, moved_;         ///< by group: visible at the last update; has_moved

@@ -18,10 +18,34 @@ std::vector<int> uses_of(const BeamOrder& order, int first_part, int rays)
     for (int p = first_part; p < order.count; ++p)
         for (int i = 0; i < order.parts[p].count; ++i) {
             const std::int32_t* lanes = order.lanes_of(order.parts[p]);
-            ++uses[static_cast<std::size_t>(lanes ? lanes[i] : i)];
+            const std::int32_t lane = lanes ? lanes[i] : i;
+            if (lane >= 0) ++uses[static_cast<std::size_t>(lane)];
         }
     for (int i = 0; i < order.singles; ++i) ++uses[static_cast<std::size_t>(order.single[i])];
     return uses;
+}
+
+constexpr int scattered = 1000;
+
+/// Rays all over the square of slopes, or in two corners of it; they end nearby.
+void scatter(BeamPlaces& places, bool has_gap)
+{
+    Random random(3);
+    places.wide_u = places.wide_v = 1.0f;
+    places.most_columns = 2.0f;
+    for (int i = 0; i < scattered; ++i) {
+        const bool is_far = has_gap && i % 2 == 0;
+        const double lo = is_far ? 0.8 : 0.0, wide = has_gap ? 0.2 : 1.0;
+        places.u[i] = static_cast<float>(random.between(lo, lo + wide));
+        places.v[i] = static_cast<float>(random.between(lo, lo + wide));
+        places.depth[i] = 0.0f;
+        std::uint32_t place = 0;
+        for (std::uint32_t bit = 0; bit < 8; ++bit) {
+            place |= (static_cast<std::uint32_t>(places.u[i] * 255.0f) >> bit & 1u) << (2 * bit);
+            place |= (static_cast<std::uint32_t>(places.v[i] * 255.0f) >> bit & 1u) << (2 * bit + 1);
+        }
+        places.key[i] = place << 16 | static_cast<std::uint32_t>(i);
+    }
 }
 
 bool all_once(const std::vector<int>& uses)
@@ -57,31 +81,68 @@ TEST_CASE("clusters hold every ray of the beam that they were cut from, and are 
 {
     for (const bool has_gap : {false, true}) {
         CAPTURE(has_gap);
-        Random random(3);
         BeamPlaces places;
-        constexpr int rays = 1000;
-        places.wide_u = places.wide_v = 1.0f;
-        for (int i = 0; i < rays; ++i) {
-            const bool is_far = has_gap && i % 2 == 0;
-            const double lo = is_far ? 0.8 : 0.0, wide = has_gap ? 0.2 : 1.0;
-            places.u[i] = static_cast<float>(random.between(lo, lo + wide));
-            places.v[i] = static_cast<float>(random.between(lo, lo + wide));
-            std::uint32_t place = 0;
-            for (std::uint32_t bit = 0; bit < 8; ++bit) {
-                place |= (static_cast<std::uint32_t>(places.u[i] * 255.0f) >> bit & 1u) << (2 * bit);
-                place |= (static_cast<std::uint32_t>(places.v[i] * 255.0f) >> bit & 1u) << (2 * bit + 1);
-            }
-            places.key[i] = place << 16 | static_cast<std::uint32_t>(i);
-        }
+        scatter(places, has_gap);
         BeamOrder order;
-        order.take_all(rays, axes_of({0, 0, -1}));
+        order.take_all(scattered, axes_of({0, 0, -1}));
         const BeamPart whole = order.parts[0];
         order.cluster(whole, places);
-        CHECK(all_once(uses_of(order, 1, rays)));
+        CHECK(all_once(uses_of(order, 1, scattered)));
         CHECK(order.count - 1 == (has_gap ? 2 : 1));
-        CHECK(std::is_sorted(places.key, places.key + rays,
+        CHECK(order.singles < 2 * fewest_rays);
+        CHECK(std::is_sorted(places.key, places.key + scattered,
                              [](std::uint32_t a, std::uint32_t b) { return a >> 16 < b >> 16; }));
     }
+}
+
+TEST_CASE("packets of clusters are narrow where their rays end, and hold five rays or more; other rays go alone")
+{
+    int packets = 0, alone = 0;
+    for (const float depth : {1.0f, 4.0f, 10.0f, 20.0f, 1000.0f}) {
+        CAPTURE(depth);
+        BeamPlaces places;
+        scatter(places, true);
+        for (int i = 0; i < scattered; ++i) places.depth[i] = i % 3 == 0 ? depth : 0.5f * depth;
+        BeamOrder order;
+        order.take_all(scattered, axes_of({0, 0, -1}));
+        const BeamPart some = order.only(order.parts[0], 0xffffffff0f0full);
+        std::vector<int> uses(scattered);
+        for (int i = 0; i < some.count; ++i) ++uses[static_cast<std::size_t>(order.lanes_of(some)[i])];
+        CHECK(some.count == 16 * 40);
+        BeamPlaces chosen = places;
+        for (int i = 0; i < some.count; ++i) {
+            const auto ray = static_cast<std::size_t>(order.lanes_of(some)[i]);
+            chosen.u[i] = places.u[ray];
+            chosen.v[i] = places.v[ray];
+            chosen.depth[i] = places.depth[ray];
+            chosen.key[i] = (places.key[ray] & ~0xffffu) | static_cast<std::uint32_t>(i);
+        }
+        order.cluster(some, chosen);
+        CHECK(uses_of(order, 1, scattered) == uses);
+        alone += order.singles;
+        for (int p = 1; p < order.count; ++p) {
+            const BeamPart& part = order.parts[p];
+            REQUIRE(part.count % packet_size == 0);
+            for (int first = part.first; first < part.first + part.count; first += packet_size, ++packets) {
+                float lo_u = 2, lo_v = 2, hi_u = 0, hi_v = 0, deepest = 0;
+                int rays = 0;
+                for (int i = first; i < first + packet_size; ++i) {
+                    const bool fills = order.lanes[i] < 0;
+                    const int lane = fills ? ~order.lanes[i] : order.lanes[i];
+                    rays += !fills;
+                    lo_u = std::min(lo_u, places.u[lane]);
+                    hi_u = std::max(hi_u, places.u[lane]);
+                    lo_v = std::min(lo_v, places.v[lane]);
+                    hi_v = std::max(hi_v, places.v[lane]);
+                    deepest = std::max(deepest, places.depth[lane]);
+                }
+                CHECK(rays >= fewest_rays);
+                CHECK(((hi_u - lo_u) * deepest + 1.0f) * ((hi_v - lo_v) * deepest + 1.0f) <= places.most_columns);
+            }
+        }
+    }
+    CHECK(packets > 100);
+    CHECK(alone > 100);
 }
 
 TEST_CASE("a mailbox gives every packet to a triangle once a beam")

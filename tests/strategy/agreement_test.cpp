@@ -3,6 +3,7 @@
 #include "bench/strategies.h"
 #include "engine/core/simd.h"
 #include "tests/support/compare_hits.h"
+#include "tests/support/moving_scenes.h"
 #include "tests/support/test_rays.h"
 
 using namespace firstray;
@@ -116,6 +117,39 @@ TEST_CASE("rays with a common apex close to triangles far larger than the way to
             check_agreement(scene, expected_hits<float>(scene, rays, precision), {.precision = precision}, hits);
     }
     CHECK(hits > 50000);
+    MESSAGE("hits compared: " << hits);
+}
+
+TEST_CASE("rays that look only for what transmits light find it among what does not, in every group, frame after frame")
+{
+    int hits = 0;
+    for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+        CAPTURE(seed);
+        const Scene scene = moving_scene(seed, {.motions = {Motion::rigid, Motion::grows, Motion::blinks}});
+        std::vector<std::pair<std::string, std::unique_ptr<Strategy<float>>>> all;
+        for (const StrategyEntry& entry : strategies())
+            if (!entry.peer && entry.name != "list") all.emplace_back(entry.name, entry.make(scene, {}));
+        for (const auto& [name, flag, word] : {std::tuple("lazy", "lazy-top", "primitives"),
+                                               {"obb", "obb-groups", "all"},
+                                               {"adaptive", "list-or-grid", "always-list"}})
+            all.emplace_back(word, find_strategy(name)->make(scene, {.own = {{flag, word}}}));
+        const auto list = find_strategy("list")->make(scene, {});
+        for (const double time : {0.0, 3.0, 7.0}) {
+            CAPTURE(time);
+            const Pose now = pose(scene, time);
+            const Scene targets = targets_of(now);
+            list->update(now);
+            std::vector<TestRay> rays = rays_from(seed, targets, {1, 2, 3}, 512);
+            const Expected<float> beams(*list, rays), singles(*list, awkward_rays(seed, targets, 512));
+            for (const auto& [name, strategy] : all) {
+                CAPTURE(name);
+                strategy->update(now);
+                CHECK(beams.differences(*strategy, hits) == 0);
+                CHECK(singles.differences(*strategy, hits) == 0);
+            }
+        }
+    }
+    CHECK(hits > 30000);
     MESSAGE("hits compared: " << hits);
 }
 
