@@ -196,16 +196,16 @@ void BeamOrder::pack(const BeamPlaces& sorted, const std::int32_t* sorted_lanes,
                      const BeamAxes& axes)
 {
     BeamPart part{capacity + packed_, 0, axes};
-    for (int i = begin, count; i < end; i += count) {
-        count = rays_in_packet(sorted, i, end);
-        if (count < fewest_rays) {
-            count = 1;
+    for (int i = begin, rays; i < end; i += rays) {
+        rays = rays_in_packet(sorted, i, end);
+        if (rays < fewest_rays) {
+            rays = 1;
             single[singles++] = sorted_lanes[i];
             continue;
         }
         std::int32_t* const packet = lanes + capacity + packed_;
-        std::copy_n(sorted_lanes + i, count, packet);
-        std::fill_n(packet + count, packet_size - count, ~sorted_lanes[i]);
+        std::copy_n(sorted_lanes + i, rays, packet);
+        std::fill_n(packet + rays, packet_size - rays, ~sorted_lanes[i]);
         packed_ += packet_size;
         part.count += packet_size;
         if (part.count < capacity) continue;

@@ -33,17 +33,23 @@ struct BeamQuest {
                            const Triangle& triangle)
     {
         const PrimitiveId id = id_and_bit & ~transmitting_bit;
-        bool is_met = false, has_plane = false;
+        bool is_met = false, has_plane = false, has_sides = false;
         ApexPlane plane;
         const auto plane_of = [&]() -> const ApexPlane& {
             if (!has_plane) plane = make_apex_plane(triangle(), rays.apex);
             has_plane = true;
             return plane;
         };
+        ApexSides sides;
+        const auto sides_of = [&]() -> const ApexSides& {
+            if (!has_sides) sides = make_apex_sides(triangle(), rays.apex);
+            has_sides = true;
+            return sides;
+        };
         for (; packets != 0; packets &= packets - 1) {
             const int packet = __builtin_ctzll(packets);
             const PacketHits found = test_packet<query == Query::any>(seen, id, precision != Precision::fast, rays,
-                                                                      packet * packet_size, plane_of);
+                                                                      packet * packet_size, plane_of, sides_of);
             std::uint32_t hits = found.hits;
             for (std::uint32_t rest = found.uncertain; rest != 0; rest &= rest - 1) {
                 const int lane = __builtin_ctz(rest);

@@ -101,7 +101,11 @@ struct BeamSearch {
         const std::uint32_t marked = pack.id[lane];
         if (!admits(quest.mask, (marked & transmitting_bit) != 0)) return 0;
         const PacketMask asked = quest.mailbox.untested(marked & ~transmitting_bit, packets);
-        return asked == 0 ? 0 : packets_meeting(beam, triangles, lane, asked);
+        if (asked == 0) return 0;
+        if (std::isfinite(triangles.error[lane])) return packets_meeting(beam, triangles, lane, asked);
+        // Its sides tell nothing: it is seen edge-on, or from so far away that float does not tell them apart.
+        const Aabb box = pack.box(lane);
+        return packets_meeting(beam, beam_box(beam, box.lo, box.hi, wide + structure->pad), asked);
     }
 
     HWY_INLINE void test(const TrianglePack& pack, int lane, const BeamTriangles& triangles, PacketMask packets)

@@ -53,6 +53,54 @@ inline ApexPlane make_apex_plane(const RootTriangle<float>& t, const glm::vec3& 
     return p;
 }
 
+/// A triangle's sides in double, for signs that float cannot tell.
+struct ApexSides {
+    glm::dvec3 side[3];  ///< its dot product with a direction is the side u, v, w
+    double error;        ///< bound on the error of a side, for a direction of length 1
+};
+
+inline ApexSides make_apex_sides(const RootTriangle<float>& t, const glm::vec3& apex)
+{
+    const glm::dvec3 v0(t.v[0]), v1(t.v[1]), v2(t.v[2]), o(apex), a0 = v0 - o, a1 = v1 - o, a2 = v2 - o;
+    const double edge = static_cast<double>(t.edge), distance = largest_component<double>(a0) + edge;
+    return {{cross_as_written<double>(v2 - v1, a1 + a2), cross_as_written<double>(v0 - v2, a2 + a0),
+             cross_as_written<double>(v1 - v0, a0 + a1)},
+            side_error<double> * (edge * distance)};
+}
+
+/// What double says of a register of rays.
+struct SidesInDouble {
+    std::uint32_t inside = 0, outside = 0;  ///< lanes that certainly are
+    alignas(64) float u[pack_size], v[pack_size];
+};
+
+/// passes_inside_exactly() of triangle.h, as far as double can tell, for a register of rays from `first` on.
+HWY_INLINE void test_sides(const ApexSides& sides, const BeamRays& rays, int first, SidesInDouble& result)
+{
+    const hn::CappedTag<double, pack_size / 2> d;
+    const hn::Rebind<float, decltype(d)> df;
+    for (int i = 0; i < kernel_lanes; i += static_cast<int>(hn::Lanes(d))) {
+        const auto load = [&](const BeamRays::Lane& from)
+                              HWY_ATTR { return hn::PromoteTo(d, hn::Load(df, from.data() + first + i)); };
+        const auto x = load(rays.direction[0]), y = load(rays.direction[1]), z = load(rays.direction[2]);
+        const auto dot = [&](const glm::dvec3& n) HWY_ATTR {
+            return hn::Add(hn::Add(hn::Mul(hn::Set(d, n.x), x), hn::Mul(hn::Set(d, n.y), y)),
+                           hn::Mul(hn::Set(d, n.z), z));
+        };
+        const auto u = dot(sides.side[0]), v = dot(sides.side[1]), w = dot(sides.side[2]);
+        const auto least = hn::Min(hn::Min(u, v), w), most = hn::Max(hn::Max(u, v), w);
+        const auto error = hn::Mul(hn::Set(d, sides.error), load(rays.length));
+        const auto is_bounded = hn::Ge(error, hn::Set(d, least_bound<double>));
+        const auto above = hn::Gt(most, error), below = hn::Lt(least, hn::Neg(error));
+        const auto inside = hn::Or(hn::Gt(least, error), hn::Lt(most, hn::Neg(error)));
+        result.inside |= bits_of(d, hn::And(is_bounded, inside)) << i;
+        result.outside |= bits_of(d, hn::And(is_bounded, hn::And(above, below))) << i;
+        const auto sum = hn::Add(hn::Add(u, v), w);
+        hn::Store(hn::DemoteTo(df, hn::Div(v, sum)), df, result.u + i);
+        hn::Store(hn::DemoteTo(df, hn::Div(w, sum)), df, result.v + i);
+    }
+}
+
 /// plane_t_in_double() of triangle.h for a register of rays from `first` on; not a number where that takes more.
 HWY_INLINE hn::Vec<PackLanes> plane_ts(const ApexPlane& plane, const BeamRays& rays, int first)
 {
@@ -83,9 +131,10 @@ struct PacketHits {
 /// intersect() of triangle.h for the sixteen rays from `first` on, and taking the hit where it counts.
 /// any_hit   that there is a hit is all that counts: t need not be exact where it is far enough from both ends
 /// plane_of  `plane_of()` gives the triangle's ApexPlane
-template <bool any_hit, class PlaneOf>
+/// sides_of  `sides_of()` gives its ApexSides
+template <bool any_hit, class PlaneOf, class SidesOf>
 HWY_INLINE PacketHits test_packet(const ApexTriangle& p, PrimitiveId id, bool exact_signs, BeamRays& rays, int first,
-                                  const PlaneOf& plane_of)
+                                  const PlaneOf& plane_of, const SidesOf& sides_of)
 {
     const PackLanes d;
     const hn::RebindToUnsigned<PackLanes> du;
@@ -136,7 +185,19 @@ HWY_INLINE PacketHits test_packet(const ApexTriangle& p, PrimitiveId id, bool ex
         const auto is_certain = exact_signs
                                     ? hn::And(is_bounded, hn::Or(hn::Gt(least, error), hn::Lt(most, hn::Neg(error))))
                                     : (is_fast_enough(p.span, p.edge, p.distance) ? is_sloped : hn::FirstN(d, 0));
-        const auto hit = hn::And(maybe, hn::And(is_placed, is_certain));
+        auto hit = hn::And(maybe, hn::And(is_placed, is_certain));
+        const V scale = hn::Div(set(1.0f), hn::Add(hn::Add(u, v), w));
+        V hit_u = hn::Mul(v, scale), hit_v = hn::Mul(w, scale);
+        if (exact_signs && !hn::AllFalse(d, hn::And(is_placed, hn::AndNot(hit, maybe)))) {
+            SidesInDouble sides;
+            test_sides(sides_of(), rays, lane, sides);
+            const auto asked = hn::And(is_placed, hn::AndNot(hit, maybe));
+            const auto inside = hn::And(asked, mask_of(d, sides.inside));
+            hit = hn::Or(hit, inside);
+            hit_u = hn::IfThenElse(inside, hn::Load(d, sides.u), hit_u);
+            hit_v = hn::IfThenElse(inside, hn::Load(d, sides.v), hit_v);
+            maybe = hn::AndNot(hn::And(asked, mask_of(d, sides.outside)), maybe);
+        }
         result.uncertain |= bits_of(d, hn::AndNot(hit, maybe)) << (lane - first);
 
         const auto old_id = hn::Load(du, rays.id.data() + lane), new_id = hn::Set(du, id);
@@ -146,10 +207,9 @@ HWY_INLINE PacketHits test_packet(const ApexTriangle& p, PrimitiveId id, bool ex
         const std::uint32_t bits = bits_of(d, counts);
         if (bits == 0) continue;
         result.hits |= bits << (lane - first);
-        const V scale = hn::Div(set(1.0f), hn::Add(hn::Add(u, v), w));
         hn::BlendedStore(t, counts, d, rays.t.data() + lane);
-        hn::BlendedStore(hn::Mul(v, scale), counts, d, rays.u.data() + lane);
-        hn::BlendedStore(hn::Mul(w, scale), counts, d, rays.v.data() + lane);
+        hn::BlendedStore(hit_u, counts, d, rays.u.data() + lane);
+        hn::BlendedStore(hit_v, counts, d, rays.v.data() + lane);
         hn::BlendedStore(new_id, hn::RebindMask(du, counts), du, rays.id.data() + lane);
     }
     return result;

@@ -30,6 +30,14 @@ HWY_INLINE std::uint32_t bits_of(D d, Mask mask)
     return bits & ((2u << (hn::Lanes(d) - 1)) - 1);
 }
 
+/// The mask whose bits these are.
+template <class D>
+HWY_INLINE hn::Mask<D> mask_of(D d, std::uint32_t bits)
+{
+    const std::uint8_t bytes[8] = {static_cast<std::uint8_t>(bits), static_cast<std::uint8_t>(bits >> 8)};
+    return hn::LoadMaskBits(d, bytes);
+}
+
 /// longest_edge() of triangle.h, of triangles in lanes.
 /// v  corner, axis
 template <class V>
@@ -140,8 +148,8 @@ HWY_INLINE std::uint32_t candidates(const TrianglePack& pack, const FilterRay& r
         // a triangle that the ray meets. Where the test sees it, its edge is longer by off at most, so the side's error
         // is at most 12 * off * edge + 16 * off^2.
         const auto off = hn::MulAdd(hn::Set(d, 0x1p-21f), hn::Add(farther, edge), base);
-        const auto least_error = hn::MulAdd(hn::Mul(hn::Set(d, 16.0f), off), off,
-                                            hn::Set(d, std::numeric_limits<float>::min()));
+        const auto least_error =
+            hn::MulAdd(hn::Mul(hn::Set(d, 16.0f), off), off, hn::Set(d, std::numeric_limits<float>::min()));
         const auto error =
             hn::MulAdd(hn::MulAdd(hn::Set(d, 12.0f), off, hn::Set(d, ray.error_per_edge)), edge, least_error);
         // Most of what the line meets lies behind the ray's origin or beyond its end: first by the corners' depths ...

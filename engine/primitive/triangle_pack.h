@@ -1,6 +1,7 @@
 #pragma once
 #include <cstdint>
 
+#include "engine/core/aabb.h"
 #include "engine/core/ray_tile.h"
 #include "engine/primitive/triangle.h"
 
@@ -25,6 +26,13 @@ struct alignas(64) TrianglePack {
             t.v[corner] = {v[corner][0][lane], v[corner][1][lane], v[corner][2][lane]};
         t.edge = edge[lane];
         return t;
+    }
+    Aabb box(int lane) const
+    {
+        Aabb around;
+        for (int corner = 0; corner < 3; ++corner)
+            around.grow({v[corner][0][lane], v[corner][1][lane], v[corner][2][lane]});
+        return around;
     }
     void set_corners(int lane, const glm::vec3 (&corners)[3])
     {

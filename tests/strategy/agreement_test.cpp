@@ -236,6 +236,36 @@ TEST_CASE("no ray from inside leaves a closed mesh, wherever it stands")
     }
 }
 
+TEST_CASE("no ray from a light far away passes between the triangles of a mesh, and its hits are the list's")
+{
+    Random random(5);
+    int hits = 0;
+    const Scene scene = sphere_mesh(24, 1.0, glm::dvec3(3.0, -2.0, 1.0));
+    const Pose now = pose(scene, 0.0);
+    const glm::dvec3 centre = (scene.positions[0] + scene.positions[1]) * 0.5;
+    for (const double distance : {1e2, 1e3, 1e4, 1e5}) {
+        CAPTURE(distance);
+        const glm::dvec3 light(glm::vec3(centre + distance * glm::normalize(random.in_cube(1.0))));
+        const glm::dvec3 towards = glm::normalize(light - centre);
+        std::vector<TestRay> rays;
+        while (rays.size() < 4096) {
+            const TriangleIndices& t =
+                scene.triangles[random.below(static_cast<std::uint32_t>(scene.triangles.size()))];
+            const glm::dvec3 a(glm::vec3(scene.positions[t.vertex.x])), b(glm::vec3(scene.positions[t.vertex.y]));
+            const glm::dvec3 target = rays.size() % 2 == 0 ? a : glm::mix(a, b, random.unit());
+            if (glm::dot(target - centre, towards) > 0.3)  // not where the mesh ends, seen from there
+                rays.push_back({light, target - light, 0.0, rays.size() % 3 == 0 ? 1.01 : 1e30});
+        }
+        const Expected<float> expected = expected_hits<float>(scene, rays, Precision::robust);
+        const int before = hits;
+        check_agreement(scene, expected, {}, hits);
+        const int asked = (hits - before) / static_cast<int>(rays.size());
+        CHECK(hits - before == asked * static_cast<int>(rays.size()));
+        CHECK(asked > 0);
+    }
+    MESSAGE("hits compared: " << hits);
+}
+
 TEST_CASE("rays that are not rays meet nothing")
 {
     const Scene scene = random_scene(2, 200);
