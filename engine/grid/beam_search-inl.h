@@ -104,8 +104,10 @@ struct BeamSearch {
         if (asked == 0) return 0;
         if (std::isfinite(triangles.error[lane])) return packets_meeting(beam, triangles, lane, asked);
         // Its sides tell nothing: it is seen edge-on, or from so far away that float does not tell them apart.
+        // Precision::fast may take for a hit what passes beside it.
         const Aabb box = pack.box(lane);
-        return packets_meeting(beam, beam_box(beam, box.lo, box.hi, wide + structure->pad), asked);
+        const float beside = wide + structure->pad + loose * pack.edge[lane];
+        return packets_meeting(beam, beam_box(beam, box.lo, box.hi, beside), asked);
     }
 
     HWY_INLINE void test(const TrianglePack& pack, int lane, const BeamTriangles& triangles, PacketMask packets)
