@@ -141,11 +141,11 @@ TEST_CASE("rays that look only for what transmits light find it among what does 
             list->update(now);
             std::vector<TestRay> rays = rays_from(seed, targets, {1, 2, 3}, 512);
             const Expected<float> beams(*list, rays), singles(*list, awkward_rays(seed, targets, 512));
-            for (const auto& [name, strategy] : all) {
-                CAPTURE(name);
-                strategy->update(now);
-                CHECK(beams.differences(*strategy, hits) == 0);
-                CHECK(singles.differences(*strategy, hits) == 0);
+            for (const auto& named : all) {
+                CAPTURE(named.first);
+                named.second->update(now);
+                CHECK(beams.differences(*named.second, hits) == 0);
+                CHECK(singles.differences(*named.second, hits) == 0);
             }
         }
     }
