@@ -61,7 +61,8 @@ bool put(const glm::dvec3& place, glm::vec<3, Real, glm::defaultp>& out)
     out.x = x;
     out.y = y;
     out.z = z;
-    return (std::abs(x) <= farthest) & (std::abs(y) <= farthest) & (std::abs(z) <= farthest);
+    const int x_is_in = std::abs(x) <= farthest, y_is_in = std::abs(y) <= farthest, z_is_in = std::abs(z) <= farthest;
+    return (x_is_in & y_is_in & z_is_in) != 0;
 }
 
 template <typename Real>
