@@ -24,10 +24,11 @@ struct RowGroup {
 };
 
 const RowGroup groups[] = {
-    {"T1", &watertight_rows},   {"T1", &distance_rows}, {"T2", &agreement_rows}, {"T4", &special_ray_rows},
-    {"T5", &scaling_rows},      {"T6", &garbage_rows},  {"T7", &duplicate_rows}, {"T8", &drift_rows},
-    {"T10", &spawned_rows},     {"T11", &extreme_rows}, {"T13", &mutant_rows},   {"T15", &determinism_rows},
-    {"T18,T20", &compare_rows}, {"T19", &cost_rows},    {"tests", &tested_rows},
+    {"T1", &watertight_rows},   {"T1", &distance_rows}, {"T2", &agreement_rows},
+    {"T4", &special_ray_rows},  {"T5", &scaling_rows},  {"T6", &garbage_rows},
+    {"T7", &duplicate_rows},    {"T8", &drift_rows},    {"T10", &spawned_rows},
+    {"T11", &extreme_rows},     {"T13", &mutant_rows},  {"T15", &determinism_rows},
+    {"T18,T20", &compare_rows}, {"T19", &cost_rows},    {"T3,T9,T12,T14,T16,T17", &tested_rows},
 };
 
 struct Arguments {
@@ -42,6 +43,12 @@ std::vector<std::string> split(const std::string& text, char separator)
     std::istringstream in(text);
     for (std::string part; std::getline(in, part, separator);) parts.push_back(part);
     return parts;
+}
+
+bool has_id(const RowGroup& group, const std::string& id)
+{
+    const std::vector<std::string> ids = split(group.ids, ',');
+    return std::find(ids.begin(), ids.end(), id) != ids.end();
 }
 
 Arguments read_arguments(int argc, char** argv)
@@ -60,16 +67,17 @@ Arguments read_arguments(int argc, char** argv)
         else
             throw std::invalid_argument("unknown argument " + name);
     }
+    for (const std::string& id : arguments.only)
+        if (std::none_of(std::begin(groups), std::end(groups), [&](const RowGroup& g) { return has_id(g, id); }))
+            throw std::invalid_argument("--only: '" + id + "', expected ids of rows, such as T1,T14");
     if (!(arguments.part > 0.0 && arguments.part <= 1.0)) throw std::invalid_argument("--part must be in (0, 1]");
     return arguments;
 }
 
 bool is_wanted(const RowGroup& group, const std::vector<std::string>& only)
 {
-    const std::vector<std::string> ids = split(group.ids, ',');
-    return only.empty() || std::any_of(ids.begin(), ids.end(), [&](const std::string& id) {
-               return std::find(only.begin(), only.end(), id) != only.end();
-           });
+    return only.empty() ||
+           std::any_of(only.begin(), only.end(), [&](const std::string& id) { return has_id(group, id); });
 }
 
 void add_rows_of(const std::string& file, Matrix& matrix)

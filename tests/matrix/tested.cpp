@@ -1,6 +1,7 @@
 // Rows that test cases of tests/ show: T13's mutants, and what is run at length here and short in every test run.
 #include <fmt/format.h>
 
+#include <cstdio>
 #include <sstream>
 
 #include "tests/matrix/matrix.h"
@@ -22,7 +23,7 @@ const TestedRow tested[] = {
     {"T9",
      "random sets of points that are flat, straight, one point or nearly so: points outside of their box, boxes not "
      "right-handed and orthonormal",
-     "100,000 random degenerate sets get*", 100'000, "0"},
+     "100*random degenerate sets get*", 100'000, "0"},
     {"T12", "scenes whose voxels up to 64 threads enter at once: built once each, hits of one thread, bytes left",
      "threads that meet*in ten thousand scenes", 10'000, "each; same; 0"},
     {"T12", "engines in one process, a render that fails in the middle: same pictures afterwards",
@@ -34,8 +35,7 @@ const TestedRow tested[] = {
      "same", "firstray_command_tests"},
     {"T16", "files of bad input: message with file:line:column and exit code", "every file of bad input*", 246, "exact",
      "firstray_command_tests"},
-    {"T16", "ways out of the scene's folder: nothing read outside", "files outside*,a link that*", 26, "none",
-     "firstray_command_tests"},
+    {"T16", "ways out of the scene's folder: nothing read outside", "files outside*,a link that*", 2, "none"},
     {"T17", "inputs that fuzzing found or began with, replayed on every target",
      "whatever fuzzing*,bad input, and good*", 5, "no harm", "firstray_command_tests"},
 };
@@ -56,8 +56,11 @@ std::string messages(const std::string& out)
 
 void tested_rows(Matrix& matrix)
 {
+    if (matrix.part() < 1.0) {
+        std::fputs("T3, T9, T12, T14, T16, T17: test cases, left out but where --part is 1\n", stderr);
+        return;
+    }
     for (const TestedRow& row : tested) {
-        if (matrix.part() < 1.0) continue;
         const Ended ended = run_program(fmt::format("'{}' -nc -ns -s=false '-tc={}'",
                                                     (matrix.programs() / "tests" / row.program).string(), row.test));
         const bool ran =
