@@ -101,9 +101,7 @@ int rays_in_packet(const BeamPlaces& sorted, int begin, int end)
         const std::uint32_t ray = sorted.key[i] & 0xffffu;
         square.add(sorted.u[ray], sorted.v[ray]);
         deepest = std::max(deepest, sorted.depth[ray]);
-        const float columns =
-            ((square.hi_u - square.lo_u) * deepest + 1.0f) * ((square.hi_v - square.lo_v) * deepest + 1.0f);
-        if (columns > sorted.most_columns) break;
+        if (columns_at(deepest, square.hi_u - square.lo_u, square.hi_v - square.lo_v) > sorted.most_columns) break;
     }
     return i - begin;
 }

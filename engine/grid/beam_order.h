@@ -37,6 +37,12 @@ struct BeamPlaces {
     float most_columns;                          ///< of cells that a packet may end in
 };
 
+/// How many columns of cells rays end in that are so far apart in slope, at a depth in cells.
+inline float columns_at(float depth, float wide_u, float wide_v)
+{
+    return (wide_u * depth + 1.0f) * (wide_v * depth + 1.0f);
+}
+
 /// Which rays of a tile make a beam.
 struct BeamOrder {
     static constexpr int capacity = RayTile<float>::capacity;

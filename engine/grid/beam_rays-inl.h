@@ -238,8 +238,8 @@ HWY_INLINE PacketMask too_wide(const Beam& beam, PacketMask asked, const Grid& g
     for (; asked != 0; asked &= asked - 1) {
         const int packet = __builtin_ctzll(asked);
         const float depth = std::min(beam.reach[packet], farthest) / cell;
-        const float columns = ((beam.hi_u[packet] - beam.lo_u[packet]) * depth + 1.0f) *
-                              ((beam.hi_v[packet] - beam.lo_v[packet]) * depth + 1.0f);
+        const float columns =
+            columns_at(depth, beam.hi_u[packet] - beam.lo_u[packet], beam.hi_v[packet] - beam.lo_v[packet]);
         if (columns > (beam.reach[packet] < endless ? most : most_columns_without_end)) wide |= PacketMask{1} << packet;
     }
     return wide;

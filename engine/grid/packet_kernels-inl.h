@@ -188,10 +188,9 @@ HWY_INLINE PacketHits test_packet(const ApexTriangle& p, PrimitiveId id, bool ex
         auto hit = hn::And(maybe, hn::And(is_placed, is_certain));
         const V scale = hn::Div(set(1.0f), hn::Add(hn::Add(u, v), w));
         V hit_u = hn::Mul(v, scale), hit_v = hn::Mul(w, scale);
-        if (exact_signs && !hn::AllFalse(d, hn::And(is_placed, hn::AndNot(hit, maybe)))) {
+        if (const auto asked = hn::And(is_placed, hn::AndNot(hit, maybe)); exact_signs && !hn::AllFalse(d, asked)) {
             SidesInDouble sides;
             test_sides(sides_of(), rays, lane, sides);
-            const auto asked = hn::And(is_placed, hn::AndNot(hit, maybe));
             const auto inside = hn::And(asked, mask_of(d, sides.inside));
             hit = hn::Or(hit, inside);
             hit_u = hn::IfThenElse(inside, hn::Load(d, sides.u), hit_u);
