@@ -29,11 +29,8 @@ Aabb fill(TrianglePack& pack, const GridEntries& entries, std::size_t first)
 void set_boxes(GridStructure& structure, const std::vector<Aabb>& boxes)
 {
     for (std::size_t p = 0; p < structure.boxes.size() * pack_size; ++p) {
-        PackBoxes& block = structure.boxes[p / pack_size];
-        for (int axis = 0; axis < 3; ++axis) {  // what is behind the last is empty
-            block.lo[axis][p % pack_size] = p < boxes.size() ? boxes[p].lo[axis] - structure.pad : Aabb().lo[axis];
-            block.hi[axis][p % pack_size] = p < boxes.size() ? boxes[p].hi[axis] + structure.pad : Aabb().hi[axis];
-        }
+        const Aabb box = p < boxes.size() ? boxes[p] : Aabb();  // what is behind the last is empty
+        structure.boxes[p / pack_size].set(p % pack_size, {box.lo - structure.pad, box.hi + structure.pad});
     }
 }
 

@@ -75,15 +75,15 @@ HWY_INLINE std::uint32_t boxes_meeting(const PackBoxes& boxes, const Beam& beam,
     for (int lane = 0; lane < pack_size; lane += kernel_lanes) {
         const auto depth = [&](const float* side)
                                HWY_ATTR { return hn::Mul(forward, hn::Sub(hn::Load(d, side + lane), apex_k)); };
-        const auto near = hn::Max(hn::Sub(depth((up ? boxes.lo : boxes.hi)[beam.k]), widen), zero),
-                   far = hn::Add(depth((up ? boxes.hi : boxes.lo)[beam.k]), widen);
+        const auto near = hn::Max(hn::Sub(depth(boxes.side[up ? 0 : 1][beam.k]), widen), zero),
+                   far = hn::Add(depth(boxes.side[up ? 1 : 0][beam.k]), widen);
         auto met = hn::Ge(far, zero);
         for (int side = 0; side < 2; ++side) {
             const int axis = side == 0 ? beam.u : beam.v;
             const auto shift = hn::Set(d, beam.apex[side]), lo = hn::Set(d, beam.lo[side]),
                        hi = hn::Set(d, beam.hi[side]);
-            const auto box_lo = hn::Sub(hn::Sub(hn::Load(d, boxes.lo[axis] + lane), shift), widen),
-                       box_hi = hn::Add(hn::Sub(hn::Load(d, boxes.hi[axis] + lane), shift), widen);
+            const auto box_lo = hn::Sub(hn::Sub(hn::Load(d, boxes.side[0][axis] + lane), shift), widen),
+                       box_hi = hn::Add(hn::Sub(hn::Load(d, boxes.side[1][axis] + lane), shift), widen);
             met = hn::And(met, hn::Le(hn::Min(hn::Mul(lo, near), hn::Mul(lo, far)), box_hi));
             met = hn::And(met, hn::Ge(hn::Max(hn::Mul(hi, near), hn::Mul(hi, far)), box_lo));
         }

@@ -65,8 +65,8 @@ struct BeamSearch {
     {
         for (std::uint32_t met = boxes_meeting(boxes, beam, wide); met != 0; met &= met - 1) {
             const int lane = __builtin_ctz(met);
-            const BeamBox box = beam_box(beam, {boxes.lo[0][lane], boxes.lo[1][lane], boxes.lo[2][lane]},
-                                         {boxes.hi[0][lane], boxes.hi[1][lane], boxes.hi[2][lane]}, wide);
+            const Aabb around = boxes.box(static_cast<std::size_t>(lane));
+            const BeamBox box = beam_box(beam, around.lo, around.hi, wide);
             if (const PacketMask inside = packets_meeting(beam, box, packets)) pack(packs[lane], inside);
         }
     }

@@ -188,10 +188,7 @@ HWY_INLINE void fill_pack(const GridEntries& entries, std::span<const std::uint3
 
 void set_box(PackBoxes& boxes, std::size_t lane, const Aabb& box, float pad)
 {
-    for (int axis = 0; axis < 3; ++axis) {
-        boxes.lo[axis][lane] = box.lo[axis] - pad;
-        boxes.hi[axis][lane] = box.hi[axis] + pad;
-    }
+    boxes.set(lane, {box.lo - pad, box.hi + pad});
 }
 
 void fill_packs_of(const VoxelList& list, const GridEntries& entries, std::span<const std::uint32_t> triangles,

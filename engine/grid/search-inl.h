@@ -57,17 +57,42 @@ struct Quest {
     }
 };
 
-/// Where a ray is in a box: raises `enter` and lowers `leave`; false when it is not.
-/// wide  by how much the box is widened
-HWY_INLINE bool cut_to_box(const glm::dvec3& o, const glm::dvec3& inverse, const glm::dvec3& lo, const glm::dvec3& hi,
-                           double wide, double& enter, double& leave)
-{
-    for (int axis = 0; axis < 3; ++axis) {
-        const double a = (lo[axis] - wide - o[axis]) * inverse[axis];
-        const double b = (hi[axis] + wide - o[axis]) * inverse[axis];
-        enter = std::max(enter, std::min(a, b));
-        leave = std::min(leave, std::max(a, b));
+/// Three doubles, an axis each, as two pairs of lanes: x and y, z and z.
+struct AxisPairs {
+    using Pair = hn::FixedTag<double, 2>;
+    hn::Vec<Pair> xy, zz;
+
+    AxisPairs() = default;
+    HWY_INLINE AxisPairs(hn::Vec<Pair> first, hn::Vec<Pair> last) : xy(first), zz(last) {}
+    HWY_INLINE explicit AxisPairs(const glm::dvec3& v)
+        : xy(hn::InterleaveLower(hn::Set(Pair(), v.x), hn::Set(Pair(), v.y))), zz(hn::Set(Pair(), v.z))
+    {
     }
+    /// The result of an operation on each axis.
+    template <class Operation, class... Others>
+    HWY_INLINE AxisPairs each(const Operation& operation, const Others&... others) const
+    {
+        return {operation(xy, others.xy...), operation(zz, others.zz...)};
+    }
+    HWY_INLINE double least() const { return hn::GetLane(hn::MinOfLanes(Pair(), hn::Min(xy, zz))); }
+    HWY_INLINE double most() const { return hn::GetLane(hn::MaxOfLanes(Pair(), hn::Max(xy, zz))); }
+    /// Rounded, in four lanes.
+    HWY_INLINE auto as_floats() const
+    {
+        const hn::FixedTag<float, 2> d2;
+        return hn::Combine(hn::FixedTag<float, 4>(), hn::DemoteTo(d2, zz), hn::DemoteTo(d2, xy));
+    }
+};
+
+/// Where a ray is in a box, given by its distance from two opposite corners: raises `enter` and lowers `leave`; false
+/// when it is not.
+HWY_INLINE bool cut_to_box(const AxisPairs& to_lo, const AxisPairs& to_hi, const AxisPairs& inverse, double& enter,
+                           double& leave)
+{
+    const auto product = [](auto a, auto b) HWY_ATTR { return hn::Mul(a, b); };
+    const AxisPairs a = to_lo.each(product, inverse), b = to_hi.each(product, inverse);
+    enter = std::max(enter, a.each([](auto x, auto y) HWY_ATTR { return hn::Min(x, y); }, b).most());
+    leave = std::min(leave, a.each([](auto x, auto y) HWY_ATTR { return hn::Max(x, y); }, b).least());
     return enter <= leave;
 }
 
@@ -96,36 +121,57 @@ inline HWY_NOINLINE double go_near(glm::dvec3& o, const glm::dvec3& d, double& e
 HWY_INLINE bool make_walk_ray(glm::dvec3 o, const glm::dvec3& d, double t_min, double t_max, const glm::dvec3& lo,
                               const glm::dvec3& hi, float pad, WalkRay& walk)
 {
+    const AxisPairs::Pair pair;
     // A hit's t is off by its slack; one that lies outside the interval by that much can still be found inside it.
     double enter = t_min - std::abs(t_min) * t_slack, leave = t_max + std::abs(t_max) * t_slack;
     const double wide = 2.0 * static_cast<double>(pad);
+    AxisPairs origin(o);
+    const AxisPairs direction(d);
     // A ray along a slab meets it everywhere or nowhere: its planes are crossed at minus and plus very far.
-    for (int axis = 0; axis < 3; ++axis) walk.exact_inverse[axis] = d[axis] != 0.0 ? 1.0 / d[axis] : 1e300;
-    const double length = std::max(std::max(std::abs(d.x), std::abs(d.y)), std::abs(d.z));
+    const AxisPairs inverse = direction.each([&](auto along) HWY_ATTR {
+        return hn::IfThenElse(hn::Eq(along, hn::Zero(pair)), hn::Set(pair, 1e300), hn::Div(hn::Set(pair, 1.0), along));
+    });
+    const AxisPairs wide_lo = AxisPairs(lo).each([&](auto x) HWY_ATTR { return hn::Sub(x, hn::Set(pair, wide)); }),
+                    wide_hi = AxisPairs(hi).each([&](auto x) HWY_ATTR { return hn::Add(x, hn::Set(pair, wide)); });
+    const auto cut = [&]() HWY_ATTR {
+        const auto difference = [](auto a, auto b) HWY_ATTR { return hn::Sub(a, b); };
+        return cut_to_box(wide_lo.each(difference, origin), wide_hi.each(difference, origin), inverse, enter, leave);
+    };
+    const double length = direction.each([](auto along) HWY_ATTR { return hn::Abs(along); }).most();
     const double begin = enter, end = leave;
-    const bool is_in = cut_to_box(o, walk.exact_inverse, lo, hi, wide, enter, leave);
+    const bool is_in = cut();
     double gone = 0.0;
     if (HWY_UNLIKELY(std::abs(enter) * length > far_away * static_cast<double>(pad))) {
         enter = std::max(begin, std::min(enter, leave)), leave = end;
         gone = go_near(o, d, enter, leave);
-        if (!cut_to_box(o, walk.exact_inverse, lo, hi, wide, enter, leave)) return false;
+        origin = AxisPairs(o);
+        if (!cut()) return false;
     } else if (!is_in) {
         return false;
     }
     walk.shift = gone + enter;
     walk.t_pad = static_cast<float>(static_cast<double>(pad) / length);
-    double off = 0.0;
-    for (int axis = 0; axis < 3; ++axis) {
-        const double origin = o[axis] + enter * d[axis];
-        walk.origin[axis] = static_cast<float>(origin);
-        off = std::max(off, std::abs(origin - static_cast<double>(walk.origin[axis])));
-        walk.direction[axis] = static_cast<float>(d[axis]);
-        const float inverse = static_cast<float>(walk.exact_inverse[axis]);
-        walk.inverse[axis] = std::abs(inverse) < 1e18f ? inverse : std::copysign(1e18f, inverse);
-    }
+    const AxisPairs start = origin.each(
+        [&](auto from, auto along) HWY_ATTR { return hn::Add(from, hn::Mul(hn::Set(pair, enter), along)); }, direction);
+    const hn::FixedTag<float, 4> d4;
+    const auto rounded = start.as_floats();
+    const AxisPairs as_rounded(hn::PromoteTo(pair, hn::LowerHalf(rounded)),
+                               hn::PromoteTo(pair, hn::UpperHalf(hn::FixedTag<float, 2>(), rounded)));
+    const double off =
+        start.each([](auto exact, auto r) HWY_ATTR { return hn::Abs(hn::Sub(exact, r)); }, as_rounded).most();
     walk.origin_error = static_cast<float>(off + std::abs(enter) * length * crossing_error) * (1.0f + 0x1p-20f);
-    walk.origin[3] = walk.direction[3] = 0.0f;
-    walk.inverse[3] = 1.0f;
+    const auto steepest = hn::Set(d4, 1e18f);
+    const auto limited = hn::Min(hn::Max(inverse.as_floats(), hn::Neg(steepest)), steepest);
+    hn::Store(rounded, d4, walk.origin);
+    hn::Store(direction.as_floats(), d4, walk.direction);
+    hn::Store(limited, d4, walk.inverse);
+    hn::Store(hn::Neg(hn::Mul(rounded, limited)), d4, walk.box_shift);
+    const hn::RebindToUnsigned<decltype(d4)> du;
+    hn::Store(hn::ShiftRight<31>(hn::BitCast(du, limited)), du, walk.near_side);
+    hn::Store(direction.xy, pair, walk.exact_direction);
+    hn::Store(direction.zz, pair, walk.exact_direction + 2);
+    hn::Store(inverse.xy, pair, walk.exact_inverse);
+    hn::Store(inverse.zz, pair, walk.exact_inverse + 2);
     return true;
 }
 
@@ -160,7 +206,7 @@ struct Search {
         if (!make_walk_ray(o, d, static_cast<double>(quest.ray.t_min), static_cast<double>(quest.hit.t),
                            glm::dvec3(top.lo), glm::dvec3(top.hi()), structure->pad, walk))
             return false;
-        filter = make_filter_ray(walk, d, structure->largest, structure->blur, loose, largest_component<double>(o));
+        filter = make_filter_ray(walk, structure->largest, structure->blur, loose, largest_component<double>(o));
         update_stop();
         return true;
     }
@@ -173,7 +219,7 @@ struct Search {
     }
 
     /// Tests what is kept out of the cells; returns whether the ray is done.
-    HWY_NOINLINE bool large() { return list(structure->large, 0.0f); }
+    bool large() { return list(structure->large, 0.0f); }
 
     float t_stop() const { return stop; }
     void count_cell() { quest.cost.add_cell(); }
@@ -223,27 +269,38 @@ struct Search {
         return false;
     }
 
-    /// Tests a voxel's primitives; returns whether the ray is done.
-    HWY_INLINE bool list(const VoxelList& voxel, float t_enter)
+    /// Tests a voxel's primitives; returns whether the ray is done. A function of its own, so that walks have the
+    /// registers to themselves.
+    HWY_NOINLINE bool list(const VoxelList& voxel, float t_enter)
     {
         if (!may_admit(quest.mask, voxel.may_transmit)) return false;
         const TrianglePack* packs = structure->packs.data() + voxel.first_pack;
         if (voxel.packs < boxed_packs) {
             if (voxel.packs == 1 && pack(packs[0])) return true;
         } else {
-            for (std::uint32_t block = 0; block < voxel.box_blocks(); ++block)
-                if (boxed(structure->boxes[voxel.first_boxes + block], packs + block * pack_size, t_enter)) return true;
+            const PackBoxes* boxes = structure->boxes.data() + voxel.first_boxes;
+            for (std::uint32_t block = 0; block < voxel.box_blocks(); block += blocks_at_once)
+                if (boxed(boxes + block, std::min(voxel.box_blocks() - block, blocks_at_once),
+                          packs + block * pack_size, t_enter))
+                    return true;
         }
         return voxel.quadrics > 0 && quadrics(voxel);
     }
 
-    HWY_INLINE bool boxed(const PackBoxes& boxes, const TrianglePack* packs, float t_enter)
+    /// Blocks whose packs are searched in one order, nearest first.
+    static constexpr std::uint32_t blocks_at_once = 4;
+
+    HWY_INLINE bool boxed(const PackBoxes* boxes, std::uint32_t blocks, const TrianglePack* packs, float t_enter)
     {
-        alignas(64) float entries[pack_size];
-        std::uint32_t met = boxes_met(boxes, walk, t_enter - walk.t_pad, stop, entries);
+        alignas(64) float entries[blocks_at_once * pack_size];
+        std::uint64_t met = 0;
+        for (std::uint32_t block = 0; block < blocks; ++block) {
+            const std::uint32_t first = block * pack_size;
+            met |= std::uint64_t{boxes_met(boxes[block], walk, t_enter - walk.t_pad, stop, entries + first)} << first;
+        }
         while (met != 0) {
             const int lane = nearest_lane(met, entries);
-            met &= ~(1u << lane);
+            met &= ~(std::uint64_t{1} << lane);
             if (entries[lane] > stop) break;
             if (pack(packs[lane])) return true;
         }

@@ -69,23 +69,33 @@ HWY_INLINE bool traverse(const Grid& grid, const WalkRay& ray, float t_begin, fl
     plane = hn::Add(plane, forward);
     auto after = crossing(plane);
     // Crossings are the same function of the index on both sides, so the step that would leave is met exactly.
-    float t_last = std::min(t_leave, search.t_stop());
-    for (float t = t_enter;;) {
-        const auto nearest = hn::MinOfLanes(d, next);
-        const float t_next = hn::GetLane(nearest);
-        const CellWord word = resolve.word(index);
+    float t_last = std::min(t_leave, search.t_stop()), t = t_enter;
+    for (;;) {
+        // Most cells are empty: a loop of its own, so that what it works with stays in registers.
+        auto nearest = hn::MinOfLanes(d, next);
+        CellWord word = resolve.word(index);
         search.count_cell();
-        if (HWY_UNLIKELY(!word.is_empty())) {
-            if (search.visit(resolve.voxel(word, index), t, t_next, resolve)) return true;
-            t_last = std::min(t_leave, search.t_stop());
+        const auto step_on = [&]() HWY_ATTR {
+            const auto crossed = hn::Le(next, nearest);
+            t = hn::GetLane(nearest);
+            index += moves[bits_of(d, crossed) & 7];
+            next = hn::IfThenElse(crossed, after, next);
+            plane = hn::Add(plane, hn::IfThenElseZero(crossed, forward));
+            after = crossing(plane);
+        };
+        while (word.is_empty()) {
+            // Written so that what is not a number, where products overflow, ends the walk too.
+            if (!(hn::GetLane(nearest) < t_last)) return false;
+            step_on();
+            nearest = hn::MinOfLanes(d, next);
+            word = resolve.word(index);
+            search.count_cell();
         }
-        if (!(t_next < t_last)) return false;  // not a number: where products overflow, the walk must end too
-        const auto crossed = hn::Le(next, nearest);
-        index += moves[bits_of(d, crossed) & 7];
-        next = hn::IfThenElse(crossed, after, next);
-        plane = hn::Add(plane, hn::IfThenElseZero(crossed, forward));
-        after = crossing(plane);
-        t = t_next;
+        const float t_next = hn::GetLane(nearest);
+        if (search.visit(resolve.voxel(word, index), t, t_next, resolve)) return true;
+        t_last = std::min(t_leave, search.t_stop());
+        if (!(t_next < t_last)) return false;
+        step_on();
     }
 }
 

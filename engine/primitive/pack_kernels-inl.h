@@ -54,11 +54,14 @@ HWY_INLINE V longest_edges(const V (&v)[3][3])
 struct WalkRay {
     alignas(16) float origin[4];  ///< x, y, z, unused
     alignas(16) float direction[4];
-    alignas(16) float inverse[4];  ///< 1 / direction, limited so that no product overflows
+    alignas(16) float inverse[4];            ///< 1 / direction, limited so that no product overflows
+    alignas(16) float box_shift[4];          ///< -origin * inverse
+    alignas(16) std::uint32_t near_side[4];  ///< on which side of boxes, 0 low or 1 high, the ray enters them
+    alignas(16) double exact_direction[4];
+    alignas(16) double exact_inverse[4];  ///< 1 / direction; very large where that is 0
     double shift = 0.0;
     float t_pad = 0.0f;         ///< walk t in which the ray passes the structure's pad
     float origin_error = 0.0f;  ///< by how much the origin is off, per coordinate
-    glm::dvec3 exact_inverse;   ///< 1 / direction; very large where that is 0
 };
 
 /// A ray as the triangle filter sees it: it starts where the walk does, and space is sheared so that it points along
@@ -82,21 +85,23 @@ struct FilterRay {
     void set_far_end(float walk_t, float pad) { far_end = std::min(speed * walk_t + pad, farthest); }
 };
 
-/// d        the ray's direction, in the structure's system
 /// largest  the structure's largest coordinate
 /// blur     how far a corner that the test sees may be from its place in the pack, per coordinate
 /// loose    admit also what Precision::fast may take for a hit: how much larger its error is in the structure's system
 ///          than in its own (1 where they are the same); 0 admits only what the ray meets
 /// reach    largest coordinate of the ray's origin
-HWY_INLINE FilterRay make_filter_ray(const WalkRay& walk, const glm::dvec3& d, float largest, float blur, float loose,
-                                     double reach)
+HWY_INLINE FilterRay make_filter_ray(const WalkRay& walk, float largest, float blur, float loose, double reach)
 {
-    const glm::dvec3 along = glm::abs(d);
+    static constexpr int next[3] = {1, 2, 0};
+    const double(&d)[4] = walk.exact_direction;
+    // No branches: rays of all directions come one after the other.
+    const double x = std::abs(d[0]), y = std::abs(d[1]), z = std::abs(d[2]);
+    const int x_first = int{x > y} & int{x > z}, y_first = int{x <= y} & int{y > z};
     FilterRay f;
-    f.z = along.x > along.y ? (along.x > along.z ? 0 : 2) : (along.y > along.z ? 1 : 2);
-    f.x = f.z == 2 ? 0 : f.z + 1;
-    f.y = f.x == 2 ? 0 : f.x + 1;
-    f.forward = d[f.z] > 0.0 ? 1.0f : -1.0f;
+    f.z = 2 - 2 * x_first - y_first;
+    f.x = next[f.z];
+    f.y = next[f.x];
+    f.forward = std::copysign(1.0f, walk.direction[f.z]);
     f.speed = std::abs(walk.direction[f.z]);
     const double inverse = std::abs(walk.exact_inverse[f.z]);
     f.slope_x = static_cast<float>(d[f.x] * inverse);
@@ -171,11 +176,11 @@ HWY_INLINE std::uint32_t candidates(const TrianglePack& pack, const FilterRay& r
 }
 
 /// The lane of a mask, not empty, with the smallest number.
-HWY_INLINE int nearest_lane(std::uint32_t lanes, const float* numbers)
+HWY_INLINE int nearest_lane(std::uint64_t lanes, const float* numbers)
 {
-    int nearest = __builtin_ctz(lanes);
-    for (std::uint32_t rest = lanes & (lanes - 1); rest != 0; rest &= rest - 1)
-        if (const int lane = __builtin_ctz(rest); numbers[lane] < numbers[nearest]) nearest = lane;
+    int nearest = __builtin_ctzll(lanes);
+    for (std::uint64_t rest = lanes & (lanes - 1); rest != 0; rest &= rest - 1)
+        if (const int lane = __builtin_ctzll(rest); numbers[lane] < numbers[nearest]) nearest = lane;
     return nearest;
 }
 
@@ -188,11 +193,9 @@ HWY_INLINE std::uint32_t boxes_met(const PackBoxes& boxes, const WalkRay& ray, f
     for (int lane = 0; lane < pack_size; lane += static_cast<int>(hn::Lanes(d))) {
         auto enter = hn::Set(d, t_begin), leave = hn::Set(d, t_end);
         for (int axis = 0; axis < 3; ++axis) {
-            const bool up = ray.inverse[axis] > 0.0f;
-            const auto inverse = hn::Set(d, ray.inverse[axis]);
-            const auto shift = hn::Set(d, -ray.origin[axis] * ray.inverse[axis]);
-            const auto near = hn::Load(d, (up ? boxes.lo : boxes.hi)[axis] + lane);
-            const auto far = hn::Load(d, (up ? boxes.hi : boxes.lo)[axis] + lane);
+            const auto inverse = hn::Set(d, ray.inverse[axis]), shift = hn::Set(d, ray.box_shift[axis]);
+            const auto near = hn::Load(d, boxes.side[ray.near_side[axis]][axis] + lane);
+            const auto far = hn::Load(d, boxes.side[ray.near_side[axis] ^ 1][axis] + lane);
             enter = hn::Max(enter, hn::MulAdd(near, inverse, shift));
             leave = hn::Min(leave, hn::MulAdd(far, inverse, shift));
         }

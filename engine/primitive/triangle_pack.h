@@ -54,7 +54,20 @@ struct alignas(64) TrianglePack {
 
 /// Boxes of up to sixteen packs, widened by the structure's pad; unused ones are empty.
 struct alignas(64) PackBoxes {
-    float lo[3][pack_size], hi[3][pack_size];
+    float side[2][3][pack_size];  ///< low and high, axis, lane
+
+    void set(std::size_t lane, const Aabb& box)
+    {
+        for (int axis = 0; axis < 3; ++axis) {
+            side[0][axis][lane] = box.lo[axis];
+            side[1][axis][lane] = box.hi[axis];
+        }
+    }
+    Aabb box(std::size_t lane) const
+    {
+        return {{side[0][0][lane], side[0][1][lane], side[0][2][lane]},
+                {side[1][0][lane], side[1][1][lane], side[1][2][lane]}};
+    }
 };
 
 }  // namespace firstray::inline v0
