@@ -111,9 +111,11 @@ GridOptions BoxMaker::shape_of(std::size_t primitives) const
     return list;
 }
 
-void BoxMaker::fill(Box& box, GridEntries entries, const Executor* executor, std::uint64_t& peak_bytes) const
+void BoxMaker::fill(Box& box, GridEntries entries, PackOrder order, const Executor* executor,
+                    std::uint64_t& peak_bytes) const
 {
-    const GridOptions shape = shape_of(entries.count());
+    GridOptions shape = shape_of(entries.count());
+    shape.order = order;
     box.blur = entries.blur;
     if (inside != Inside::lazy) {
         box.inside = build_grid(std::move(entries), shape, executor, peak_bytes);
@@ -184,7 +186,7 @@ Box BoxMaker::make_in(const BoxPlan& plan, const Transform& local_from_node, flo
         add_triangle(entries, t, id, transmits);
     });
     if (!keep_quadrics) box.quadrics = {};
-    fill(box, std::move(entries), nullptr, peak_bytes);
+    fill(box, std::move(entries), PackOrder::by_surface, nullptr, peak_bytes);
     return box;
 }
 
@@ -201,7 +203,7 @@ Box BoxMaker::make_in_root(const BoxPlan& plan, const RootGeometry<Real>& geomet
     GridEntries entries = make_entries(geometry, primitives, executor);
     const Aabb bounds = bounds_of(entries, executor);
     box.bounds = {glm::dvec3(bounds.lo), glm::dvec3(bounds.hi)};
-    fill(box, std::move(entries), executor, peak_bytes);
+    fill(box, std::move(entries), PackOrder::along_curve, executor, peak_bytes);
     return box;
 }
 

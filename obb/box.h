@@ -77,13 +77,14 @@ struct BoxMaker {
     Box make_in_root(const BoxPlan& plan, const RootGeometry<Real>& geometry, const Transform& root_from_node,
                      const Executor* executor, std::uint64_t& peak_bytes) const;
 
-    /// The largest coordinate of a group's vertices and shapes, in its node's system; infinite where a shape reaches too
-    /// far to tell. What is not finite is left out: it is nowhere.
+    /// The largest coordinate of a group's vertices and shapes, in its node's system; infinite where a shape reaches
+    /// too far to tell. What is not finite is left out: it is nowhere.
     double reach_of(const BoxPlan& plan) const;
 
 private:
     GridOptions shape_of(std::size_t primitives) const;
-    void fill(Box& box, GridEntries entries, const Executor* executor, std::uint64_t& peak_bytes) const;
+    void fill(Box& box, GridEntries entries, PackOrder order, const Executor* executor,
+              std::uint64_t& peak_bytes) const;
 };
 
 }  // namespace firstray::inline v0::obb

@@ -58,8 +58,10 @@ void ObbStrategy<Real>::build_scenery(const Aabb& movers)
     has_scenery_ = scene_.groups[0].primitives() > 0;
     if (!has_scenery_) return;
     std::uint64_t built_bytes = 0;
+    GridOptions shape = maker_.grid;
+    shape.order = PackOrder::by_surface;
     scenery_.structure =
-        build_grid(scenery_entries(geometry_, movers, options_.executor), maker_.grid, options_.executor, built_bytes);
+        build_grid(scenery_entries(geometry_, movers, options_.executor), shape, options_.executor, built_bytes);
     regridded_ += scene_.groups[0].primitives();
     peak_bytes_ += built_bytes;
 }

@@ -165,13 +165,13 @@ Beginning begin(GridEntries& entries, GridStructure& structure, RawVector<std::u
 }
 
 void fill(GridStructure& structure, const Beginning& begun, const GridEntries& entries, const Filling& filling,
-          const Executor* executor)
+          PackOrder order, const Executor* executor)
 {
     resize_for_overwrite(structure.packs, filling.counts.packs);
     resize_for_overwrite(structure.boxes, filling.counts.boxes);
     structure.quadrics.resize(filling.counts.quadrics);
-    fill_list(structure.large, {begun.large, begun.bounds}, entries, structure);
-    fill_lists(filling.lists, entries, executor, structure);
+    fill_list(structure.large, {begun.large, begun.bounds}, entries, order, structure);
+    fill_lists(filling.lists, entries, order, executor, structure);
 }
 
 /// Forgets what a structure held, but keeps its memory.
@@ -225,7 +225,7 @@ void build_grid(GridEntries& entries, const GridOptions& options, const Executor
     Filling filling{scratch.to_fill, {}};
     into.large = reserve_list(begun.large, entries, filling.counts);
     lay_out(top, entries, 1, into, filling);
-    fill(into, begun, entries, filling, executor);
+    fill(into, begun, entries, filling, options.order, executor);
     peak_bytes = std::max(peak_bytes, into.bytes() + top.bytes() + entries.bytes() + scratch.bytes());
     scratch.top = std::move(top.lists);
 }
@@ -258,7 +258,7 @@ TopGrid build_top(GridEntries& entries, const GridOptions& options, const Execut
         if (!top.lists.of(cell).empty()) structure.cells[cell] = CellWord::list(cell);
     Filling filling{scratch.to_fill, {}};
     structure.large = reserve_list(begun.large, entries, filling.counts);
-    fill(structure, begun, entries, filling, executor);
+    fill(structure, begun, entries, filling, options.order, executor);
     return top;
 }
 
@@ -278,7 +278,7 @@ GridStructure build_voxel(const TopGrid& top, std::uint32_t cell, const GridEntr
     std::vector<ListToFill> to_fill;
     Filling filling{to_fill, {}};
     lay_out(*node, entries, 1, structure, filling);
-    fill(structure, {}, entries, filling, nullptr);
+    fill(structure, {}, entries, filling, options.order, nullptr);
     return structure;
 }
 

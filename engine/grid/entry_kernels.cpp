@@ -5,6 +5,8 @@
 #include <utility>
 #include <vector>
 
+#include "engine/grid/surface_order.h"
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "engine/grid/entry_kernels.cpp"
 #include <hwy/foreach_target.h>
@@ -148,15 +150,19 @@ HWY_NOINLINE void sort_along_curve(const GridEntries& entries, std::span<const s
 
 /// The triangles, neighbours in space near each other; as they are if they fill at most one pack.
 std::span<const std::uint32_t> in_clusters(const GridEntries& entries, std::span<const std::uint32_t> triangles,
-                                           const Aabb& voxel)
+                                           const Aabb& voxel, PackOrder order)
 {
-    constexpr std::size_t few = 128;  // two triangles for each of 64 places
+    constexpr std::size_t few = 128;    // two triangles for each of 64 places
+    constexpr std::size_t most = 1024;  // ordered by surface together
     if (triangles.size() <= pack_size) return triangles;
     thread_local std::vector<std::uint32_t> sorted;
     if (triangles.size() <= few)
         sort_along_curve<2>(entries, triangles, voxel, sorted);
     else
         sort_along_curve<3>(entries, triangles, voxel, sorted);
+    if (order == PackOrder::by_surface)
+        for (std::size_t begin = 0; begin < sorted.size(); begin += most)
+            order_by_surface(entries, voxel, std::span(sorted).subspan(begin, std::min(most, sorted.size() - begin)));
     return sorted;
 }
 
@@ -192,14 +198,14 @@ void set_box(PackBoxes& boxes, std::size_t lane, const Aabb& box, float pad)
 }
 
 void fill_packs_of(const VoxelList& list, const GridEntries& entries, std::span<const std::uint32_t> triangles,
-                   const Aabb& voxel, GridStructure& structure)
+                   const Aabb& voxel, PackOrder order, GridStructure& structure)
 {
-    const std::span<const std::uint32_t> order = in_clusters(entries, triangles, voxel);
+    const std::span<const std::uint32_t> sorted = in_clusters(entries, triangles, voxel, order);
     const bool boxed = list.box_blocks() > 0;
     for (std::size_t p = 0; p < list.packs; ++p) {
-        const std::size_t begin = p * pack_size, count = std::min<std::size_t>(pack_size, order.size() - begin);
+        const std::size_t begin = p * pack_size, count = std::min<std::size_t>(pack_size, sorted.size() - begin);
         BoxLanes box;
-        fill_pack(entries, order.subspan(begin, count), structure.packs[list.first_pack + p], box);
+        fill_pack(entries, sorted.subspan(begin, count), structure.packs[list.first_pack + p], box);
         if (!boxed) continue;
         clip(box, voxel);  // the union of clipped boxes is the clipped union, as all of them meet the voxel
         set_box(structure.boxes[list.first_boxes + p / pack_size], p % pack_size, reduce(box), entries.pad);
@@ -270,9 +276,9 @@ void find_ranges(const GridEntries& entries, std::span<const std::uint32_t> tria
 }
 
 void fill_packs(const VoxelList& list, const GridEntries& entries, std::span<const std::uint32_t> triangles,
-                const Aabb& voxel, GridStructure& structure)
+                const Aabb& voxel, PackOrder order, GridStructure& structure)
 {
-    HWY_DYNAMIC_DISPATCH(fill_packs_of)(list, entries, triangles, voxel, structure);
+    HWY_DYNAMIC_DISPATCH(fill_packs_of)(list, entries, triangles, voxel, order, structure);
 }
 
 }  // namespace firstray::inline v0

@@ -61,9 +61,15 @@ struct RangeBlock {
 void find_ranges(const GridEntries& entries, std::span<const std::uint32_t> triangles, const CellFinder& finder,
                  RangeBlock& ranges);
 
+/// How a voxel's triangles are put into packs.
+enum class PackOrder {
+    along_curve,  ///< quick
+    by_surface    ///< see order_by_surface
+};
+
 /// Sorts a voxel's triangles into clusters of sixteen and copies them to its list's packs, which must be there, with
 /// their boxes, clipped to the voxel. Different lists may be filled at the same time.
 void fill_packs(const VoxelList& list, const GridEntries& entries, std::span<const std::uint32_t> triangles,
-                const Aabb& voxel, GridStructure& structure);
+                const Aabb& voxel, PackOrder order, GridStructure& structure);
 
 }  // namespace firstray::inline v0

@@ -2,8 +2,8 @@
 
 namespace firstray::inline v0 {
 
-void fill_lists(std::span<const ListToFill> to_fill, const GridEntries& entries, const Executor* executor,
-                GridStructure& structure)
+void fill_lists(std::span<const ListToFill> to_fill, const GridEntries& entries, PackOrder order,
+                const Executor* executor, GridStructure& structure)
 {
     const auto triangles = [&](std::size_t i) {
         return to_fill[i].entries.first(to_fill[i].entries.size() - structure.lists[i].quadrics);
@@ -23,7 +23,7 @@ void fill_lists(std::span<const ListToFill> to_fill, const GridEntries& entries,
                     __builtin_prefetch(&entries.vertices[corner.x]);
                     __builtin_prefetch(&entries.vertices[corner.z]);
                 }
-            fill_list(structure.lists[i], to_fill[i], entries, structure);
+            fill_list(structure.lists[i], to_fill[i], entries, order, structure);
         }
     });
 }

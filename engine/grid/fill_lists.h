@@ -8,7 +8,7 @@ namespace firstray::inline v0 {
 
 /// fill_list with all lists of a structure, in their order.
 /// executor  null: on this thread
-void fill_lists(std::span<const ListToFill> to_fill, const GridEntries& entries, const Executor* executor,
-                GridStructure& structure);
+void fill_lists(std::span<const ListToFill> to_fill, const GridEntries& entries, PackOrder order,
+                const Executor* executor, GridStructure& structure);
 
 }  // namespace firstray::inline v0

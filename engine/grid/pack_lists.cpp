@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "engine/grid/entry_kernels.h"
-
 namespace firstray::inline v0 {
 namespace {
 
@@ -53,10 +51,11 @@ VoxelList reserve_list(std::span<const std::uint32_t> listed, const GridEntries&
     return list;
 }
 
-void fill_list(VoxelList& list, const ListToFill& to_fill, const GridEntries& entries, GridStructure& structure)
+void fill_list(VoxelList& list, const ListToFill& to_fill, const GridEntries& entries, PackOrder order,
+               GridStructure& structure)
 {
     const std::size_t triangles = to_fill.entries.size() - list.quadrics;
-    if (triangles > 0) fill_packs(list, entries, to_fill.entries.first(triangles), to_fill.box, structure);
+    if (triangles > 0) fill_packs(list, entries, to_fill.entries.first(triangles), to_fill.box, order, structure);
     for (std::uint32_t q = 0; q < list.quadrics; ++q)
         structure.quadrics[list.first_quadric + q] = entries.ids[to_fill.entries[triangles + q]];
     list.may_transmit = list.quadrics > 0 || any_transmits({structure.packs.data() + list.first_pack, list.packs});

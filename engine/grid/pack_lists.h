@@ -2,6 +2,7 @@
 #include <span>
 
 #include "engine/grid/bin.h"
+#include "engine/grid/entry_kernels.h"
 #include "engine/grid/grid.h"
 
 namespace firstray::inline v0 {
@@ -25,6 +26,7 @@ VoxelList reserve_list(std::span<const std::uint32_t> listed, const GridEntries&
 
 /// Puts a list's entries into its places, which must exist, and notes what they are. Different lists may be filled at
 /// the same time.
-void fill_list(VoxelList& list, const ListToFill& to_fill, const GridEntries& entries, GridStructure& structure);
+void fill_list(VoxelList& list, const ListToFill& to_fill, const GridEntries& entries, PackOrder order,
+               GridStructure& structure);
 
 }  // namespace firstray::inline v0
