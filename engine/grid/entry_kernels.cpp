@@ -66,7 +66,7 @@ void ranges_of_triangles(const GridEntries& entries, std::span<const std::uint32
     for (std::size_t lane = 0; lane < triangles.size(); lane += width) {
         BoxLanes box;
         load_box(entries, members.entry + lane, box);
-        auto lowest = hn::Zero(di), beyond = hn::Zero(di);
+        auto lowest = hn::Zero(di), more = hn::Zero(di), most = hn::Zero(di);
         for (int axis = 2; axis >= 0; --axis) {
             const auto lo = hn::Set(d, finder.lo[axis]), scale = hn::Set(d, finder.scale[axis]),
                        last = hn::Set(d, finder.last[axis]);
@@ -77,11 +77,33 @@ void ranges_of_triangles(const GridEntries& entries, std::span<const std::uint32
             hn::Store(from, di, ranges.lo[axis] + lane);
             hn::Store(to, di, ranges.hi[axis] + lane);
             lowest = hn::Add(hn::Mul(lowest, hn::Set(di, finder.dims[axis])), from);
-            beyond = hn::Or(beyond, hn::Sub(to, from));
+            const auto beyond = hn::Sub(to, from);
+            more = hn::Add(hn::Add(more, more), hn::Min(beyond, hn::Set(di, 1)));
+            most = hn::Max(most, beyond);
         }
         hn::Store(lowest, di, reinterpret_cast<std::int32_t*>(ranges.lowest) + lane);
-        ranges.wide |= bits_of(di, hn::Gt(beyond, hn::Zero(di))) << lane;
+        hn::Store(more, di, reinterpret_cast<std::int32_t*>(ranges.more) + lane);
+        ranges.wide |= bits_of(di, hn::Gt(most, hn::Set(di, 1))) << lane;
     }
+}
+
+/// As many cells as there may be are written for each triangle, and what is too much is overwritten: how many they are
+/// is not to be foreseen, and a wrong guess takes longer.
+std::size_t list_few_cells_of(const FewCells (&few)[8], const RangeBlock& ranges, std::size_t lane,
+                              std::span<const std::uint32_t> triangles, std::uint32_t* cells, std::uint32_t* entries)
+{
+    const hn::CappedTag<std::uint32_t, FewCells::most> d;
+    std::size_t count = 0;
+    for (std::size_t t = 0; t < triangles.size(); ++t) {
+        const FewCells& reached = few[ranges.more[lane + t]];
+        for (std::size_t i = 0; i < FewCells::most; i += hn::Lanes(d)) {
+            const auto from_lowest = hn::Load(d, reached.offset + i);
+            hn::StoreU(hn::Add(hn::Set(d, ranges.lowest[lane + t]), from_lowest), d, cells + count + i);
+            hn::StoreU(hn::Set(d, triangles[t]), d, entries + count + i);
+        }
+        count += reached.count;
+    }
+    return count;
 }
 
 /// Places on a Morton curve through a voxel, `bits` an axis.
@@ -220,6 +242,7 @@ namespace firstray::inline v0 {
 
 HWY_EXPORT(bounds_of_triangles);
 HWY_EXPORT(ranges_of_triangles);
+HWY_EXPORT(list_few_cells_of);
 HWY_EXPORT(fill_packs_of);
 
 void LargestTriangles::offer(const Triangle& triangle)
@@ -270,6 +293,12 @@ void find_ranges(const GridEntries& entries, std::span<const std::uint32_t> tria
                  RangeBlock& ranges)
 {
     HWY_DYNAMIC_DISPATCH(ranges_of_triangles)(entries, triangles, finder, ranges);
+}
+
+std::size_t list_few_cells(const FewCells (&few)[8], const RangeBlock& ranges, std::size_t lane,
+                           std::span<const std::uint32_t> triangles, std::uint32_t* cells, std::uint32_t* entries)
+{
+    return HWY_DYNAMIC_DISPATCH(list_few_cells_of)(few, ranges, lane, triangles, cells, entries);
 }
 
 void fill_packs(const VoxelList& list, const GridEntries& entries, std::span<const std::uint32_t> triangles,
