@@ -79,7 +79,7 @@ std::size_t list_few_cells(const FewCells (&few)[8], const RangeBlock& ranges, s
 
 /// Sorts a voxel's triangles into clusters of sixteen and copies them to its list's packs, which must be there, with
 /// their boxes, clipped to the voxel. Different lists may be filled at the same time.
-void fill_packs(const VoxelList& list, const GridEntries& entries, std::span<const std::uint32_t> triangles,
-                const Aabb& voxel, GridStructure& structure);
+void fill_packs(const VoxelList& list, const GridEntries& entries, const PlacedTriangles& triangles, const Aabb& voxel,
+                GridStructure& structure);
 
 }  // namespace firstray::inline v0
