@@ -143,7 +143,9 @@ void packs(benchmark::State& state, const Subject& subject)
     const VoxelList list = reserve_list(voxel, subject.entries, counts);
     structure.packs.resize(counts.packs);
     structure.boxes.resize(counts.boxes);
-    fill_packs(list, subject.entries, voxel, box, PackOrder::along_curve, structure);
+    PlacedTriangles triangles;
+    place(subject.entries, voxel, triangles);
+    fill_packs(list, subject.entries, triangles, box, PackOrder::along_curve, structure);
     std::multiset<PrimitiveId> found, right;
     for (const std::uint32_t entry : voxel) right.insert(subject.entries.ids[entry]);
     for (const TrianglePack& pack : structure.packs)
@@ -151,7 +153,8 @@ void packs(benchmark::State& state, const Subject& subject)
             if (id != no_primitive) found.insert(id);
     require(found == right, "fill_packs");
     for (auto _ : state) {
-        fill_packs(list, subject.entries, voxel, box, PackOrder::along_curve, structure);
+        place(subject.entries, voxel, triangles);
+        fill_packs(list, subject.entries, triangles, box, PackOrder::along_curve, structure);
         benchmark::ClobberMemory();
     }
     tell_time_of_one(state, "per_triangle", listed);

@@ -21,9 +21,11 @@ std::align_val_t boundary(std::size_t bytes)
 
 void* allocate_lines(std::size_t bytes)
 {
+    // whole huge pages: up to 511 small ones behind the last would take longer than it
+    if (bytes >= large) bytes = (bytes + huge_page - 1) / huge_page * huge_page;
     void* const memory = ::operator new(bytes, boundary(bytes));
 #ifdef __linux__
-    if (bytes >= large) madvise(memory, bytes / huge_page * huge_page, MADV_HUGEPAGE);  // advice: may be refused
+    if (bytes >= large) madvise(memory, bytes, MADV_HUGEPAGE);  // advice: may be refused
 #endif
     return memory;
 }

@@ -9,7 +9,6 @@
 namespace firstray::inline v0 {
 namespace {
 
-using Reference = BinScratch::Reference;
 using Piece = BinScratch::Piece;
 
 /// The cells of a small triangle's box are listed without a look at the triangle: that takes longer than to copy it to
@@ -34,16 +33,14 @@ std::uint64_t estimate(const CellRange& range)
     return std::min(n.x * n.y * n.z, n.x * n.y + n.y * n.z + n.z * n.x);
 }
 
-/// Whether the lists would be twice too long if all entries were like a few of them.
-bool clearly_too_long(const Grid& grid, const GridEntries& entries, std::span<const std::uint32_t> chosen,
-                      std::uint64_t most)
+/// References, by estimate(), per entry if all were like a few of them; one where there are not even a few.
+double expected_references(const Grid& grid, const GridEntries& entries, std::span<const std::uint32_t> chosen)
 {
     const std::size_t sample = std::min(chosen.size() / sample_stride, largest_sample);
     std::uint64_t sum = 0;
     for (std::size_t i = 0; i < sample; ++i)
         sum += estimate(cells_of(grid, entries.box(chosen[chosen.size() * i / sample]), entries.pad));
-    return static_cast<double>(sum) * static_cast<double>(chosen.size()) >
-           2.0 * static_cast<double>(most) * static_cast<double>(sample);
+    return sample == 0 ? 1.0 : static_cast<double>(sum) / static_cast<double>(sample);
 }
 
 /// Lists entries of one piece in their cells.
@@ -52,6 +49,9 @@ public:
     Lister(const Grid& grid, const GridEntries& entries, std::uint64_t most, Piece& piece)
         : grid_(grid), entries_(entries), finder_(grid, entries.pad), most_(most), piece_(piece)
     {
+        for (int more = 0; more < 8; ++more)
+            for_each_cell({glm::ivec3(0), {more & 1, more >> 1 & 1, more >> 2}},
+                          [&](const glm::ivec3& c) { few_[more].offset[few_[more].count++] = cell_index(grid, c); });
     }
 
     void list(std::span<const std::uint32_t> chosen)
@@ -66,7 +66,9 @@ public:
             piece_.estimate += estimate(range);
             add_all(range, *entry);
         }
-        piece_.references.resize(count_);
+        count_new();
+        piece_.cells.resize(count_);
+        piece_.entries.resize(count_);
     }
 
 private:
@@ -74,20 +76,35 @@ private:
     {
         RangeBlock ranges;
         find_ranges(entries_, triangles, finder_, ranges);
-        piece_.estimate += triangles.size();
-        for (std::size_t lane = 0; lane < triangles.size(); ++lane) {
-            if ((ranges.wide >> lane & 1) == 0)
-                add(ranges.lowest[lane], triangles[lane]);
-            else
+        for (std::size_t lane = 0; lane < triangles.size();) {
+            const std::uint32_t wide = ranges.wide >> lane;
+            if ((wide & 1) == 0) {
+                const std::size_t run =
+                    std::min(triangles.size() - lane, wide ? static_cast<std::size_t>(__builtin_ctz(wide)) : pack_size);
+                list_few(ranges, lane, triangles.subspan(lane, run));
+                lane += run;
+            } else {
                 list_wide({{ranges.lo[0][lane], ranges.lo[1][lane], ranges.lo[2][lane]},
                            {ranges.hi[0][lane], ranges.hi[1][lane], ranges.hi[2][lane]}},
                           triangles[lane]);
+                ++lane;
+            }
         }
+        count_new();
+    }
+
+    void list_few(const RangeBlock& ranges, std::size_t lane, std::span<const std::uint32_t> triangles)
+    {
+        make_room(triangles.size() * FewCells::most);
+        const std::size_t listed =
+            list_few_cells(few_, ranges, lane, triangles, piece_.cells.data() + count_, piece_.entries.data() + count_);
+        count_ += listed;
+        piece_.estimate += listed;
     }
 
     void list_wide(const CellRange& range, std::uint32_t entry)
     {
-        piece_.estimate += estimate(range) - 1;  // it was counted as one already
+        piece_.estimate += estimate(range);
         if (range.cells() <= too_few_to_test) return add_all(range, entry);
         if (piece_.estimate > most_) return;
         const RootTriangle<float> t = entries_.triangle(entry);
@@ -114,9 +131,22 @@ private:
 
     void add(std::uint32_t cell, std::uint32_t entry)
     {
-        ++piece_.places[cell];
-        if (count_ == piece_.references.size()) piece_.references.resize(2 * count_);
-        piece_.references[count_++] = {cell, entry};
+        make_room(1);
+        piece_.cells[count_] = cell;
+        piece_.entries[count_++] = entry;
+    }
+
+    void make_room(std::size_t more)
+    {
+        if (count_ + more <= piece_.cells.size()) return;
+        piece_.entries.resize(2 * piece_.cells.size());
+        piece_.cells.resize(2 * piece_.cells.size());
+    }
+
+    /// Counts the references that are new by cell.
+    void count_new()
+    {
+        for (; counted_ < count_; ++counted_) ++piece_.places[piece_.cells[counted_]];
     }
 
     const Grid& grid_;
@@ -124,7 +154,9 @@ private:
     CellFinder finder_;
     std::uint64_t most_;
     Piece& piece_;
-    std::size_t count_ = 0;  ///< of references; there is room for more
+    FewCells few_[8];          ///< by RangeBlock::more
+    std::size_t count_ = 0;    ///< of references; there is room for more
+    std::size_t counted_ = 0;  ///< of those, by cell
 };
 
 /// Turns counts into places: of a cell's list, a piece's share follows those of the pieces before.
@@ -158,7 +190,7 @@ std::uint64_t BinScratch::bytes() const
 {
     std::uint64_t sum = 0;
     for (const Piece& piece : pieces)
-        sum += sizeof(Reference) * piece.references.capacity() + 4 * piece.places.capacity();
+        sum += 4 * (piece.cells.capacity() + piece.entries.capacity() + piece.places.capacity());
     return sum;
 }
 
@@ -166,15 +198,18 @@ bool bin(const Grid& grid, const GridEntries& entries, std::span<const std::uint
          const Executor* executor, BinScratch& scratch, CellLists& lists)
 {
     if (grid.cells() == 1) most = std::numeric_limits<std::uint64_t>::max();
-    if (clearly_too_long(grid, entries, chosen, most)) return false;
+    const double expected = expected_references(grid, entries, chosen) * static_cast<double>(chosen.size());
+    if (expected > 2.0 * static_cast<double>(most)) return false;
     const std::size_t count = std::clamp<std::size_t>(chosen.size() / least_piece, 1,
                                                       executor ? static_cast<std::size_t>(executor->threads()) : 1);
     scratch.pieces.resize(std::max(count, scratch.pieces.size()));
     const std::span<Piece> pieces(scratch.pieces.data(), count);
+    const std::size_t room = least_piece + static_cast<std::size_t>(1.125 * expected) / count;
     for_pieces(executor, count, 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t p = begin; p < end; ++p) {
             const std::size_t from = chosen.size() * p / count, to = chosen.size() * (p + 1) / count;
-            resize_for_overwrite(pieces[p].references, std::max((to - from) * 3 / 2, least_piece));
+            resize_for_overwrite(pieces[p].cells, room);
+            resize_for_overwrite(pieces[p].entries, room);
             pieces[p].places.assign(grid.cells(), 0);
             pieces[p].estimate = 0;
             Lister(grid, entries, most, pieces[p]).list(chosen.subspan(from, to - from));
@@ -187,8 +222,11 @@ bool bin(const Grid& grid, const GridEntries& entries, std::span<const std::uint
     lists.first.resize(grid.cells() + 1);
     resize_for_overwrite(lists.entries, place_all(pieces, lists.first));
     for_pieces(executor, count, 1, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t p = begin; p < end; ++p)
-            for (const Reference& r : pieces[p].references) lists.entries[pieces[p].places[r.cell]++] = r.entry;
+        for (std::size_t p = begin; p < end; ++p) {
+            Piece& piece = pieces[p];
+            for (std::size_t i = 0; i < piece.cells.size(); ++i)
+                lists.entries[piece.places[piece.cells[i]]++] = piece.entries[i];
+        }
     });
     return true;
 }

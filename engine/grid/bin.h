@@ -36,21 +36,18 @@ CellRange cells_of(const Grid& grid, const Aabb& box, float pad);
 
 /// What bin() works with; its memory is used again.
 struct BinScratch {
-    struct Reference {
-        std::uint32_t cell, entry;
-    };
     /// What a part of the entries comes to.
     struct Piece {
-        RawVector<Reference> references;
-        std::vector<std::uint32_t> places;  ///< by cell: how many, then where the next one goes
+        RawVector<std::uint32_t> cells, entries;  ///< reference by reference
+        std::vector<std::uint32_t> places;        ///< by cell: how many, then where the next one goes
         std::uint64_t estimate = 0;
     };
     std::vector<Piece> pieces;
     std::uint64_t bytes() const;
 };
 
-/// Lists each of the given entries in every cell that it overlaps, plus pad: triangles exactly, but those of few cells and
-/// quadrics by their boxes.
+/// Lists each of the given entries in every cell that it overlaps, plus pad: triangles exactly, but those of few cells
+/// and quadrics by their boxes.
 /// most      references at most, by an estimate from boxes in which a triangle of many cells is taken for a surface; a
 ///           grid of one cell is not limited
 /// executor  null: on this thread. The lists do not depend on it.

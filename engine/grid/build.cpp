@@ -170,7 +170,9 @@ void fill(GridStructure& structure, const Beginning& begun, const GridEntries& e
     resize_for_overwrite(structure.packs, filling.counts.packs);
     resize_for_overwrite(structure.boxes, filling.counts.boxes);
     structure.quadrics.resize(filling.counts.quadrics);
-    fill_list(structure.large, {begun.large, begun.bounds}, entries, order, structure);
+    PlacedTriangles large;
+    place(entries, begun.large, large);
+    fill_list(structure.large, {begun.large, begun.bounds}, large, entries, order, structure);
     fill_lists(filling.lists, entries, order, executor, structure);
 }
 

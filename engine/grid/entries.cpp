@@ -42,9 +42,8 @@ void use_corners(GridEntries& entries, const RootGeometry<double>& geometry, con
 
 RootTriangle<float> GridEntries::triangle(std::uint32_t entry) const
 {
-    const glm::uvec3 place = corners ? corners[ids[entry] & ~transmitting_bit] : 3u * entry + glm::uvec3(0, 1, 2);
-    const glm::vec3* from = corners ? vertices : own_vertices.data();
-    const glm::vec3 &v0 = from[place.x], &v1 = from[place.y], &v2 = from[place.z];
+    const PlacedTriangle at = placed(entry);
+    const glm::vec3 &v0 = points()[at.corner[0]], &v1 = points()[at.corner[1]], &v2 = points()[at.corner[2]];
     return {{v0, v1, v2}, longest_edge<float>(v0, v1, v2)};
 }
 
@@ -53,6 +52,23 @@ Aabb GridEntries::box(std::uint32_t entry) const
     if (!is_triangle(entry)) return quadric_boxes[entry - triangles];
     const RootTriangle<float> t = triangle(entry);
     return {glm::min(glm::min(t.v[0], t.v[1]), t.v[2]), glm::max(glm::max(t.v[0], t.v[1]), t.v[2])};
+}
+
+void look_up(const GridEntries& entries, std::span<const std::uint32_t> triangles, PlacedTriangle* into)
+{
+    for (std::size_t i = 0; i < triangles.size(); ++i) into[i] = entries.placed(triangles[i]);
+}
+
+void place(const GridEntries& entries, std::span<const std::uint32_t> triangles, PlacedTriangles& into)
+{
+    into.resize(triangles.size());
+    const glm::vec3* const points = entries.points();
+    for (std::size_t i = 0; i < triangles.size(); ++i) {
+        into[i] = entries.placed(triangles[i]);
+        __builtin_prefetch(&points[into[i].corner[0]]);
+        __builtin_prefetch(&points[into[i].corner[2]]);
+    }
+    if (!triangles.empty()) into.repeat_last();
 }
 
 template <typename Real>

@@ -18,19 +18,20 @@ HWY_BEFORE_NAMESPACE();
 namespace firstray::inline v0 {
 namespace HWY_NAMESPACE {
 
-HWY_INLINE void offer_larger(const BoxLanes& box, const std::uint32_t* entry, std::size_t count,
-                             LargestTriangles& largest)
+/// triangles  whose boxes these are; lanes beyond them do not count
+HWY_INLINE void offer_larger(const BoxLanes& box, std::span<const std::uint32_t> triangles, LargestTriangles& largest)
 {
     const PackLanes d;
     const auto x = hn::Sub(box.hi[0], box.lo[0]), y = hn::Sub(box.hi[1], box.lo[1]), z = hn::Sub(box.hi[2], box.lo[2]);
     const auto area = hn::Add(hn::Add(hn::Mul(x, y), hn::Mul(y, z)), hn::Mul(z, x));
-    std::uint32_t larger = bits_of(d, hn::And(hn::FirstN(d, count), hn::Gt(area, hn::Set(d, largest.least()))));
+    std::uint32_t larger =
+        bits_of(d, hn::And(hn::FirstN(d, triangles.size()), hn::Gt(area, hn::Set(d, largest.least()))));
     if (HWY_LIKELY(larger == 0)) return;
     alignas(64) float areas[width];
     hn::Store(area, d, areas);
     for (; larger != 0; larger &= larger - 1) {
         const int lane = __builtin_ctz(larger);
-        if (areas[lane] > largest.least()) largest.offer({areas[lane], entry[lane]});
+        if (areas[lane] > largest.least()) largest.offer({areas[lane], triangles[static_cast<std::size_t>(lane)]});
     }
 }
 
@@ -43,16 +44,18 @@ Aabb bounds_of_triangles(const GridEntries& entries, std::span<const std::uint32
         sum.lo[axis] = hn::Set(d, std::numeric_limits<float>::infinity());
         sum.hi[axis] = hn::Neg(sum.lo[axis]);
     }
-    for (std::size_t first = 0; first < triangles.size(); first += width) {
-        const std::size_t count = std::min(width, triangles.size() - first);
-        const Members members(triangles.data() + first, count);
-        BoxLanes box;
-        load_box(entries, members.entry, box);
-        for (int axis = 0; axis < 3; ++axis) {
-            sum.lo[axis] = hn::Min(sum.lo[axis], box.lo[axis]);
-            sum.hi[axis] = hn::Max(sum.hi[axis], box.hi[axis]);
+    for (std::size_t first = 0; first < triangles.size(); first += pack_size) {
+        const auto block = triangles.subspan(first, std::min<std::size_t>(pack_size, triangles.size() - first));
+        const Members members(entries, block);
+        for (std::size_t lane = 0; lane < block.size(); lane += width) {
+            BoxLanes box;
+            load_box(entries.points(), members.triangle + lane, box);
+            for (int axis = 0; axis < 3; ++axis) {
+                sum.lo[axis] = hn::Min(sum.lo[axis], box.lo[axis]);
+                sum.hi[axis] = hn::Max(sum.hi[axis], box.hi[axis]);
+            }
+            if (largest) offer_larger(box, block.subspan(lane), *largest);
         }
-        if (largest) offer_larger(box, members.entry, count, *largest);
     }
     return reduce(sum);
 }
@@ -62,13 +65,13 @@ void ranges_of_triangles(const GridEntries& entries, std::span<const std::uint32
 {
     const PackLanes d;
     const IntLanes di;
-    const Members members(triangles.data(), triangles.size());
+    const Members members(entries, triangles);
     const auto pad = hn::Set(d, finder.pad), zero = hn::Zero(d);
     ranges.wide = 0;
     for (std::size_t lane = 0; lane < triangles.size(); lane += width) {
         BoxLanes box;
-        load_box(entries, members.entry + lane, box);
-        auto lowest = hn::Zero(di), beyond = hn::Zero(di);
+        load_box(entries.points(), members.triangle + lane, box);
+        auto lowest = hn::Zero(di), more = hn::Zero(di), most = hn::Zero(di);
         for (int axis = 2; axis >= 0; --axis) {
             const auto lo = hn::Set(d, finder.lo[axis]), scale = hn::Set(d, finder.scale[axis]),
                        last = hn::Set(d, finder.last[axis]);
@@ -79,11 +82,33 @@ void ranges_of_triangles(const GridEntries& entries, std::span<const std::uint32
             hn::Store(from, di, ranges.lo[axis] + lane);
             hn::Store(to, di, ranges.hi[axis] + lane);
             lowest = hn::Add(hn::Mul(lowest, hn::Set(di, finder.dims[axis])), from);
-            beyond = hn::Or(beyond, hn::Sub(to, from));
+            const auto beyond = hn::Sub(to, from);
+            more = hn::Add(hn::Add(more, more), hn::Min(beyond, hn::Set(di, 1)));
+            most = hn::Max(most, beyond);
         }
         hn::Store(lowest, di, reinterpret_cast<std::int32_t*>(ranges.lowest) + lane);
-        ranges.wide |= bits_of(di, hn::Gt(beyond, hn::Zero(di))) << lane;
+        hn::Store(more, di, reinterpret_cast<std::int32_t*>(ranges.more) + lane);
+        ranges.wide |= bits_of(di, hn::Gt(most, hn::Set(di, 1))) << lane;
     }
+}
+
+/// As many cells as there may be are written for each triangle, and what is too much is overwritten: how many they are
+/// is not to be foreseen, and a wrong guess takes longer.
+std::size_t list_few_cells_of(const FewCells (&few)[8], const RangeBlock& ranges, std::size_t lane,
+                              std::span<const std::uint32_t> triangles, std::uint32_t* cells, std::uint32_t* entries)
+{
+    const hn::CappedTag<std::uint32_t, FewCells::most> d;
+    std::size_t count = 0;
+    for (std::size_t t = 0; t < triangles.size(); ++t) {
+        const FewCells& reached = few[ranges.more[lane + t]];
+        for (std::size_t i = 0; i < FewCells::most; i += hn::Lanes(d)) {
+            const auto from_lowest = hn::Load(d, reached.offset + i);
+            hn::StoreU(hn::Add(hn::Set(d, ranges.lowest[lane + t]), from_lowest), d, cells + count + i);
+            hn::StoreU(hn::Set(d, triangles[t]), d, entries + count + i);
+        }
+        count += reached.count;
+    }
+    return count;
 }
 
 /// Places on a Morton curve through a voxel, `bits` an axis.
@@ -125,60 +150,62 @@ private:
 /// Sorts by counting, which keeps the order of equal ones: a few triangles for each place on the curve are near enough
 /// to each other, and comparing takes longer.
 template <int bits>
-HWY_NOINLINE void sort_along_curve(const GridEntries& entries, std::span<const std::uint32_t> triangles,
-                                   const Aabb& voxel, std::vector<std::uint32_t>& sorted)
+HWY_NOINLINE void sort_along_curve(const glm::vec3* points, const PlacedTriangles& triangles, const Aabb& voxel,
+                                   PlacedTriangles& sorted)
 {
     constexpr std::size_t places = std::size_t{1} << (3 * bits);
     const IntLanes di;
     const MortonCurve<bits> curve(voxel);
     thread_local RawVector<std::int32_t> place_of;
-    place_of.resize(triangles.size() + pack_size);
+    place_of.resize(triangles.count() + pack_size);
     std::uint32_t first[places] = {};
-    for (std::size_t begin = 0; begin < triangles.size(); begin += width) {
-        const std::size_t count = std::min(width, triangles.size() - begin);
+    for (std::size_t begin = 0; begin < triangles.count(); begin += width) {
         BoxLanes box;
-        load_box(entries, Members(triangles.data() + begin, count).entry, box);
+        load_box(points, triangles.from(begin), box);
         clip(box, voxel);
         hn::StoreU(curve.places(box), di, place_of.data() + begin);
-        for (std::size_t i = begin; i < begin + count; ++i) ++first[place_of[i]];
+        const std::size_t end = std::min(begin + width, triangles.count());
+        for (std::size_t i = begin; i < end; ++i) ++first[place_of[i]];
     }
     std::uint32_t sum = 0;
     for (std::uint32_t& place : first) sum += std::exchange(place, sum);
-    sorted.resize(triangles.size());
-    for (std::size_t i = 0; i < triangles.size(); ++i) sorted[first[place_of[i]]++] = triangles[i];
+    sorted.resize(triangles.count());
+    for (std::size_t i = 0; i < triangles.count(); ++i) sorted[first[place_of[i]]++] = triangles[i];
+    sorted.repeat_last();
 }
 
 /// The triangles, neighbours in space near each other; as they are if they fill at most one pack.
-std::span<const std::uint32_t> in_clusters(const GridEntries& entries, std::span<const std::uint32_t> triangles,
-                                           const Aabb& voxel, PackOrder order)
+const PlacedTriangles& in_clusters(const glm::vec3* points, const PlacedTriangles& triangles, const Aabb& voxel,
+                                   PackOrder order)
 {
     constexpr std::size_t few = 128;    // two triangles for each of 64 places
     constexpr std::size_t most = 1024;  // ordered by surface together
-    if (triangles.size() <= pack_size) return triangles;
-    thread_local std::vector<std::uint32_t> sorted;
-    if (triangles.size() <= few)
-        sort_along_curve<2>(entries, triangles, voxel, sorted);
+    if (triangles.count() <= pack_size) return triangles;
+    thread_local PlacedTriangles sorted;
+    if (triangles.count() <= few)
+        sort_along_curve<2>(points, triangles, voxel, sorted);
     else
-        sort_along_curve<3>(entries, triangles, voxel, sorted);
-    if (order == PackOrder::by_surface)
-        for (std::size_t begin = 0; begin < sorted.size(); begin += most)
-            order_by_surface(entries, voxel, std::span(sorted).subspan(begin, std::min(most, sorted.size() - begin)));
+        sort_along_curve<3>(points, triangles, voxel, sorted);
+    if (order == PackOrder::by_surface) {
+        for (std::size_t begin = 0; begin < sorted.count(); begin += most)
+            order_by_surface(points, voxel, {&sorted[begin], std::min(most, sorted.count() - begin)});
+        sorted.repeat_last();
+    }
     return sorted;
 }
 
 /// Copies up to sixteen triangles; sum becomes their boxes, those of a pack's parts put together.
-HWY_INLINE void fill_pack(const GridEntries& entries, std::span<const std::uint32_t> triangles, TrianglePack& pack,
-                          BoxLanes& sum)
+HWY_INLINE void fill_pack(const glm::vec3* points, const PlacedTriangle* triangles, std::size_t count,
+                          TrianglePack& pack, BoxLanes& sum)
 {
     const PackLanes d;
-    const Members members(triangles.data(), triangles.size());
-    for (std::size_t lane = 0; lane < pack_size; ++lane) pack.id[lane] = entries.ids[members.entry[lane]];
-    std::fill(pack.id + triangles.size(), pack.id + pack_size, no_primitive);
+    for (std::size_t lane = 0; lane < pack_size; ++lane) pack.id[lane] = triangles[lane].id;
+    std::fill(pack.id + count, pack.id + pack_size, no_primitive);
     for (std::size_t lane = 0; lane < pack_size; lane += width) {
-        const auto is_used = hn::FirstN(d, triangles.size() > lane ? triangles.size() - lane : 0);
+        const auto is_used = hn::FirstN(d, count > lane ? count - lane : 0);
         const auto nowhere = hn::Set(d, std::numeric_limits<float>::quiet_NaN());
         CornerLanes c;
-        load_corners(entries, members.entry + lane, c);
+        load_corners(points, triangles + lane, c);
         for (int k = 0; k < 3; ++k)
             for (int axis = 0; axis < 3; ++axis)
                 hn::Store(hn::IfThenElse(is_used, c.v[k][axis], nowhere), d, pack.v[k][axis] + lane);
@@ -197,15 +224,15 @@ void set_box(PackBoxes& boxes, std::size_t lane, const Aabb& box, float pad)
     boxes.set(lane, {box.lo - pad, box.hi + pad});
 }
 
-void fill_packs_of(const VoxelList& list, const GridEntries& entries, std::span<const std::uint32_t> triangles,
+void fill_packs_of(const VoxelList& list, const GridEntries& entries, const PlacedTriangles& triangles,
                    const Aabb& voxel, PackOrder order, GridStructure& structure)
 {
-    const std::span<const std::uint32_t> sorted = in_clusters(entries, triangles, voxel, order);
+    const PlacedTriangles& sorted = in_clusters(entries.points(), triangles, voxel, order);
     const bool boxed = list.box_blocks() > 0;
     for (std::size_t p = 0; p < list.packs; ++p) {
-        const std::size_t begin = p * pack_size, count = std::min<std::size_t>(pack_size, sorted.size() - begin);
+        const std::size_t begin = p * pack_size, count = std::min<std::size_t>(pack_size, sorted.count() - begin);
         BoxLanes box;
-        fill_pack(entries, sorted.subspan(begin, count), structure.packs[list.first_pack + p], box);
+        fill_pack(entries.points(), sorted.from(begin), count, structure.packs[list.first_pack + p], box);
         if (!boxed) continue;
         clip(box, voxel);  // the union of clipped boxes is the clipped union, as all of them meet the voxel
         set_box(structure.boxes[list.first_boxes + p / pack_size], p % pack_size, reduce(box), entries.pad);
@@ -223,6 +250,7 @@ namespace firstray::inline v0 {
 
 HWY_EXPORT(bounds_of_triangles);
 HWY_EXPORT(ranges_of_triangles);
+HWY_EXPORT(list_few_cells_of);
 HWY_EXPORT(fill_packs_of);
 
 void LargestTriangles::offer(const Triangle& triangle)
@@ -275,8 +303,14 @@ void find_ranges(const GridEntries& entries, std::span<const std::uint32_t> tria
     HWY_DYNAMIC_DISPATCH(ranges_of_triangles)(entries, triangles, finder, ranges);
 }
 
-void fill_packs(const VoxelList& list, const GridEntries& entries, std::span<const std::uint32_t> triangles,
-                const Aabb& voxel, PackOrder order, GridStructure& structure)
+std::size_t list_few_cells(const FewCells (&few)[8], const RangeBlock& ranges, std::size_t lane,
+                           std::span<const std::uint32_t> triangles, std::uint32_t* cells, std::uint32_t* entries)
+{
+    return HWY_DYNAMIC_DISPATCH(list_few_cells_of)(few, ranges, lane, triangles, cells, entries);
+}
+
+void fill_packs(const VoxelList& list, const GridEntries& entries, const PlacedTriangles& triangles, const Aabb& voxel,
+                PackOrder order, GridStructure& structure)
 {
     HWY_DYNAMIC_DISPATCH(fill_packs_of)(list, entries, triangles, voxel, order, structure);
 }

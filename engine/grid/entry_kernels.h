@@ -54,12 +54,28 @@ struct CellFinder {
 struct RangeBlock {
     alignas(64) std::int32_t lo[3][pack_size], hi[3][pack_size];  ///< lowest and highest, by axis
     alignas(64) std::uint32_t lowest[pack_size];                  ///< cells' indices
-    std::uint32_t wide;                                           ///< mask of those with more than one cell
+    alignas(64) std::uint32_t more[pack_size];  ///< a bit for each axis along which it is not the only one
+    std::uint32_t wide;                         ///< mask of those with more than two cells along an axis
 };
 
 /// The ranges of up to sixteen triangles.
 void find_ranges(const GridEntries& entries, std::span<const std::uint32_t> triangles, const CellFinder& finder,
                  RangeBlock& ranges);
+
+/// The cells of what reaches at most two along each axis, counted from the lowest one.
+struct FewCells {
+    static constexpr std::size_t most = 8;
+    alignas(32) std::uint32_t offset[most] = {};
+    std::uint32_t count = 0;
+};
+
+/// Lists triangles of a block that are not wide, each in all cells that it reaches.
+/// few   by RangeBlock::more
+/// lane  of the first of them in the block
+/// cells, entries  references; there is room for FewCells::most of each triangle
+/// returns         how many they are; what stands behind them is overwritten
+std::size_t list_few_cells(const FewCells (&few)[8], const RangeBlock& ranges, std::size_t lane,
+                           std::span<const std::uint32_t> triangles, std::uint32_t* cells, std::uint32_t* entries);
 
 /// How a voxel's triangles are put into packs.
 enum class PackOrder {
@@ -69,7 +85,7 @@ enum class PackOrder {
 
 /// Sorts a voxel's triangles into clusters of sixteen and copies them to its list's packs, which must be there, with
 /// their boxes, clipped to the voxel. Different lists may be filled at the same time.
-void fill_packs(const VoxelList& list, const GridEntries& entries, std::span<const std::uint32_t> triangles,
-                const Aabb& voxel, PackOrder order, GridStructure& structure);
+void fill_packs(const VoxelList& list, const GridEntries& entries, const PlacedTriangles& triangles, const Aabb& voxel,
+                PackOrder order, GridStructure& structure);
 
 }  // namespace firstray::inline v0

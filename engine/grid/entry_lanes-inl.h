@@ -7,6 +7,7 @@
 #endif
 
 #include <algorithm>
+#include <span>
 
 #include "engine/grid/entries.h"
 #include "engine/primitive/pack_kernels-inl.h"
@@ -19,14 +20,14 @@ using Lanes = hn::Vec<PackLanes>;
 using IntLanes = hn::RebindToSigned<PackLanes>;
 constexpr std::size_t width = hn::MaxLanes(PackLanes());
 
-/// Up to sixteen entries; what is missing repeats the last.
+/// Up to sixteen triangles; what is missing repeats the last.
 struct Members {
-    alignas(64) std::uint32_t entry[pack_size];
+    PlacedTriangle triangle[pack_size];
 
-    HWY_INLINE Members(const std::uint32_t* from, std::size_t count)
+    HWY_INLINE Members(const GridEntries& entries, std::span<const std::uint32_t> from)
     {
-        std::copy_n(from, count, entry);
-        std::fill(entry + count, entry + pack_size, from[count - 1]);
+        look_up(entries, from, triangle);
+        std::fill(triangle + from.size(), triangle + pack_size, triangle[from.size() - 1]);
     }
 };
 
@@ -34,25 +35,26 @@ struct CornerLanes {
     Lanes v[3][3];  ///< corner, axis
 };
 
-/// Every fourth of some points, each with the number that follows it, one behind the other.
+/// A corner of every fourth triangle, each with the number that follows it, one behind the other.
 template <class D>
-HWY_INLINE hn::Vec<D> load_points(D d, const float* const* points)
+HWY_INLINE hn::Vec<D> load_points(D d, const glm::vec3* points, const PlacedTriangle* triangles, int corner)
 {
     if constexpr (hn::MaxLanes(d) == 4) {
-        return hn::LoadU(d, points[0]);
+        return hn::LoadU(d, &points[triangles->corner[corner]].x);
     } else {
         const hn::Half<D> half;
-        return hn::Combine(d, load_points(half, points + hn::MaxLanes(half)), load_points(half, points));
+        return hn::Combine(d, load_points(half, points, triangles + hn::MaxLanes(half), corner),
+                           load_points(half, points, triangles, corner));
     }
 }
 
-/// Turns `width` points into lanes; quicker than gathering their coordinates.
-HWY_INLINE void turn_points(const float* const* points, Lanes (&axes)[3])
+/// The same corner of `width` triangles, turned into lanes; quicker than gathering coordinates.
+HWY_INLINE void turn_points(const glm::vec3* points, const PlacedTriangle* triangles, int corner, Lanes (&axes)[3])
 {
     const PackLanes d;
     const hn::Repartition<double, PackLanes> d2;
-    const auto p0 = load_points(d, points), p1 = load_points(d, points + 1), p2 = load_points(d, points + 2),
-               p3 = load_points(d, points + 3);
+    const auto load = [&](int first) HWY_ATTR { return load_points(d, points, triangles + first, corner); };
+    const auto p0 = load(0), p1 = load(1), p2 = load(2), p3 = load(3);
     const auto pair = [&](auto v) HWY_ATTR { return hn::BitCast(d2, v); };
     const auto xy01 = pair(hn::InterleaveLower(d, p0, p1)), xy23 = pair(hn::InterleaveLower(d, p2, p3)),
                z01 = pair(hn::InterleaveUpper(d, p0, p1)), z23 = pair(hn::InterleaveUpper(d, p2, p3));
@@ -61,17 +63,10 @@ HWY_INLINE void turn_points(const float* const* points, Lanes (&axes)[3])
     axes[2] = hn::BitCast(d, hn::InterleaveLower(d2, z01, z23));
 }
 
-/// entry  `width` of them
-HWY_INLINE void load_corners(const GridEntries& entries, const std::uint32_t* entry, CornerLanes& lanes)
+/// triangles  `width` of them
+HWY_INLINE void load_corners(const glm::vec3* points, const PlacedTriangle* triangles, CornerLanes& lanes)
 {
-    const float* points[3][width];
-    for (std::size_t i = 0; i < width; ++i) {
-        const glm::vec3* const from = entries.corners ? entries.vertices : entries.own_vertices.data();
-        const glm::uvec3 place = entries.corners ? entries.corners[entries.ids[entry[i]] & ~transmitting_bit]
-                                                 : 3u * entry[i] + glm::uvec3(0, 1, 2);
-        for (int k = 0; k < 3; ++k) points[k][i] = &from[place[k]].x;
-    }
-    for (int k = 0; k < 3; ++k) turn_points(points[k], lanes.v[k]);
+    for (int k = 0; k < 3; ++k) turn_points(points, triangles, k, lanes.v[k]);
 }
 
 struct BoxLanes {
@@ -86,10 +81,10 @@ HWY_INLINE void find_box(const CornerLanes& corners, BoxLanes& box)
     }
 }
 
-HWY_INLINE void load_box(const GridEntries& entries, const std::uint32_t* entry, BoxLanes& box)
+HWY_INLINE void load_box(const glm::vec3* points, const PlacedTriangle* triangles, BoxLanes& box)
 {
     CornerLanes corners;
-    load_corners(entries, entry, corners);
+    load_corners(points, triangles, corners);
     find_box(corners, box);
 }
 

@@ -13,12 +13,11 @@ std::size_t count_triangles(std::span<const std::uint32_t> listed, const GridEnt
     return static_cast<std::size_t>(end - listed.begin());
 }
 
-bool any_transmits(std::span<const TrianglePack> packs)
+bool any_transmits(const PlacedTriangles& triangles)
 {
-    bool any = false;
-    for (const TrianglePack& pack : packs)
-        for (const std::uint32_t id : pack.id) any |= id >= transmitting_bit && id != no_primitive;
-    return any;
+    std::uint32_t any = 0;
+    for (std::size_t i = 0; i < triangles.count(); ++i) any |= triangles[i].id;
+    return (any & transmitting_bit) != 0;
 }
 
 }  // namespace
@@ -51,14 +50,18 @@ VoxelList reserve_list(std::span<const std::uint32_t> listed, const GridEntries&
     return list;
 }
 
-void fill_list(VoxelList& list, const ListToFill& to_fill, const GridEntries& entries, PackOrder order,
-               GridStructure& structure)
+std::span<const std::uint32_t> triangles_of(const VoxelList& list, const ListToFill& to_fill)
 {
-    const std::size_t triangles = to_fill.entries.size() - list.quadrics;
-    if (triangles > 0) fill_packs(list, entries, to_fill.entries.first(triangles), to_fill.box, order, structure);
+    return to_fill.entries.first(to_fill.entries.size() - list.quadrics);
+}
+
+void fill_list(VoxelList& list, const ListToFill& to_fill, const PlacedTriangles& triangles, const GridEntries& entries,
+               PackOrder order, GridStructure& structure)
+{
+    if (triangles.count() > 0) fill_packs(list, entries, triangles, to_fill.box, order, structure);
     for (std::uint32_t q = 0; q < list.quadrics; ++q)
-        structure.quadrics[list.first_quadric + q] = entries.ids[to_fill.entries[triangles + q]];
-    list.may_transmit = list.quadrics > 0 || any_transmits({structure.packs.data() + list.first_pack, list.packs});
+        structure.quadrics[list.first_quadric + q] = entries.ids[to_fill.entries[triangles.count() + q]];
+    list.may_transmit = list.quadrics > 0 || any_transmits(triangles);
 }
 
 }  // namespace firstray::inline v0

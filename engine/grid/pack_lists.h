@@ -24,9 +24,12 @@ struct PackCounts {
 /// The places in a structure, behind those counted already, of a list of these entries.
 VoxelList reserve_list(std::span<const std::uint32_t> listed, const GridEntries& entries, PackCounts& counts);
 
+std::span<const std::uint32_t> triangles_of(const VoxelList& list, const ListToFill& to_fill);
+
 /// Puts a list's entries into its places, which must exist, and notes what they are. Different lists may be filled at
 /// the same time.
-void fill_list(VoxelList& list, const ListToFill& to_fill, const GridEntries& entries, PackOrder order,
-               GridStructure& structure);
+/// triangles  triangles_of(list, to_fill), placed
+void fill_list(VoxelList& list, const ListToFill& to_fill, const PlacedTriangles& triangles, const GridEntries& entries,
+               PackOrder order, GridStructure& structure);
 
 }  // namespace firstray::inline v0

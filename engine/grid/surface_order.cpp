@@ -11,7 +11,7 @@ namespace {
 
 struct Item {
     Aabb box;
-    std::uint32_t entry;
+    PlacedTriangle triangle;
 };
 
 float half_surface(const Aabb& box)
@@ -24,7 +24,7 @@ void sort_along(int axis, std::span<Item> items)
 {
     std::sort(items.begin(), items.end(), [axis](const Item& a, const Item& b) {
         const float x = a.box.lo[axis] + a.box.hi[axis], y = b.box.lo[axis] + b.box.hi[axis];
-        return x < y || (x == y && a.entry < b.entry);
+        return x < y || (x == y && a.triangle.id < b.triangle.id);
     });
 }
 
@@ -74,14 +74,18 @@ void order(std::span<Item> items, std::vector<float>& behind)
 
 }  // namespace
 
-void order_by_surface(const GridEntries& entries, const Aabb& voxel, std::span<std::uint32_t> triangles)
+void order_by_surface(const glm::vec3* points, const Aabb& voxel, std::span<PlacedTriangle> triangles)
 {
     thread_local std::vector<Item> items;
     thread_local std::vector<float> behind;
     items.clear();
-    for (const std::uint32_t entry : triangles) items.push_back({clipped(entries.box(entry), voxel), entry});
+    for (const PlacedTriangle& triangle : triangles) {
+        Aabb box;
+        for (const std::uint32_t corner : triangle.corner) box.grow(points[corner]);
+        items.push_back({clipped(box, voxel), triangle});
+    }
     order(items, behind);
-    std::transform(items.begin(), items.end(), triangles.begin(), [](const Item& item) { return item.entry; });
+    std::transform(items.begin(), items.end(), triangles.begin(), [](const Item& item) { return item.triangle; });
 }
 
 }  // namespace firstray::inline v0

@@ -10,9 +10,10 @@ namespace firstray::inline v0 {
 /// Orders triangles so that packs of sixteen, in this order, have small boxes: they are cut in two, and each part again,
 /// where the boxes' surfaces times the packs in them come to least. For what lives long: it takes about ten times as
 /// long as ordering along a curve. For some thousands of triangles at most, since all are sorted for every cut.
+/// points  where the triangles' corners are
 /// voxel   boxes count as far as they lie in it
 /// source  the cost: J. MacDonald, K. Booth, "Heuristics for Ray Tracing Using Space Subdivision", The Visual Computer
 ///         6(3), 1990
-void order_by_surface(const GridEntries& entries, const Aabb& voxel, std::span<std::uint32_t> triangles);
+void order_by_surface(const glm::vec3* points, const Aabb& voxel, std::span<PlacedTriangle> triangles);
 
 }  // namespace firstray::inline v0
