@@ -16,7 +16,7 @@ struct GridOptions {
     float subdensity = 0.25f;  ///< cells of a subgrid per primitive in it, > 0
     int max_list = 1024;       ///< a voxel with more primitives gets a subgrid, if that makes progress
     int depth = 3;             ///< levels of grids, >= 1
-    PackOrder order = PackOrder::along_curve;
+    PackOrder order = PackOrder::along_curve;  ///< by_surface pays in grids that are kept
 };
 
 /// The shape that the user chose, defaults filled in.

@@ -62,7 +62,6 @@ struct AxisPairs {
     using Pair = hn::FixedTag<double, 2>;
     hn::Vec<Pair> xy, zz;
 
-    AxisPairs() = default;
     HWY_INLINE AxisPairs(hn::Vec<Pair> first, hn::Vec<Pair> last) : xy(first), zz(last) {}
     HWY_INLINE explicit AxisPairs(const glm::dvec3& v)
         : xy(hn::InterleaveLower(hn::Set(Pair(), v.x), hn::Set(Pair(), v.y))), zz(hn::Set(Pair(), v.z))

@@ -52,7 +52,7 @@ HWY_INLINE V longest_edges(const V (&v)[3][3])
 /// A ray as boxes and grids see it. It starts where the ray enters the structure, at `shift` along the ray, so that its
 /// numbers are no larger than the structure's; its own t, walk t, counts from there.
 struct WalkRay {
-    alignas(16) float origin[4];  ///< x, y, z, unused
+    alignas(16) float origin[4];  ///< here and below: x, y, z; the fourth means nothing
     alignas(16) float direction[4];
     alignas(16) float inverse[4];            ///< 1 / direction, limited so that no product overflows
     alignas(16) float box_shift[4];          ///< -origin * inverse
