@@ -57,9 +57,8 @@ void RayTree<Real>::trace(std::span<glm::vec3> colours)
         next_.clear();
         auto& [reflected, transmitted, apexes] = current_;
         // Surfaces were lit family by family: back into an order that knows nothing of families.
-        for (std::vector<QueuedRay>* queue : {&reflected, &transmitted})
-            std::sort(queue->begin(), queue->end(),
-                      [](const QueuedRay& a, const QueuedRay& b) { return a.parent < b.parent; });
+        sort_by_parent(reflected, seen_.size());
+        sort_by_parent(transmitted, seen_.size());
         counts_.reflected += reflected.size();
         counts_.transmitted += transmitted.size();
         seen_.resize(reflected.size() + transmitted.size());
@@ -70,6 +69,18 @@ void RayTree<Real>::trace(std::span<glm::vec3> colours)
         for (std::size_t i = 0; i < transmitted.size(); ++i)
             colours[transmitted[i].slot] += seen_[reflected.size() + i];
     }
+}
+
+/// parents  how many rays were in the generation before; each has one child in a queue at most
+template <typename Real>
+void RayTree<Real>::sort_by_parent(std::vector<QueuedRay>& queue, std::size_t parents)
+{
+    order_.assign(parents, none);
+    for (std::size_t i = 0; i < queue.size(); ++i) order_[queue[i].parent] = static_cast<std::uint32_t>(i);
+    sorted_.clear();
+    for (const std::uint32_t place : order_)
+        if (place != none) sorted_.push_back(queue[place]);
+    std::swap(queue, sorted_);
 }
 
 /// first_number  of the queue's rays in their generation
@@ -87,7 +98,7 @@ void RayTree<Real>::trace_queue(std::span<QueuedRay> queue, std::uint32_t first_
     }
 }
 
-/// Families too small for beams are as good as alone.
+/// Family by family, then those that are alone; families too small for beams are as good as that.
 template <typename Real>
 void RayTree<Real>::sort_by_family(std::span<QueuedRay> queue)
 {
@@ -97,11 +108,17 @@ void RayTree<Real>::sort_by_family(std::span<QueuedRay> queue)
         if (ray.family != alone) ++family_sizes_[ray.family];
     for (QueuedRay& ray : queue)
         if (ray.family != alone && family_sizes_[ray.family] < least) ray.family = alone;
+    std::uint32_t alone_from = 0;
+    for (std::uint32_t& size : family_sizes_) {  // from here on: where its next ray goes
+        const std::uint32_t begin = alone_from;
+        if (size >= least) alone_from += size;
+        size = begin;
+    }
     order_.resize(queue.size());
-    std::iota(order_.begin(), order_.end(), 0u);
-    std::sort(order_.begin(), order_.end(), [&](std::uint32_t a, std::uint32_t b) {
-        return std::pair(queue[a].family, a) < std::pair(queue[b].family, b);
-    });
+    for (std::size_t i = 0; i < queue.size(); ++i) {
+        std::uint32_t& place = queue[i].family == alone ? alone_from : family_sizes_[queue[i].family];
+        order_[place++] = static_cast<std::uint32_t>(i);
+    }
 }
 
 /// Where rays of another family begin, or the tile is full; by place in `order_`.
@@ -154,6 +171,7 @@ template <typename Real>
 void RayTree<Real>::light_and_spawn(bool spawn)
 {
     light_.clear();
+    for (Surface& surface : surfaces_) surface.texture = surface.place.colour();
     for (const Surface& surface : surfaces_) light_.push_back(ambient_term(surface, pose_.scene->ambient));
     for (std::size_t light = 0; light < pose_.lights.size(); ++light) {
         const auto& visibility = shadows_.trace(surfaces_, surface_slots_, pose_.lights[light]);

@@ -65,6 +65,7 @@ private:
     };
 
     void trace_queue(std::span<QueuedRay> queue, std::uint32_t first_number, bool spawn);
+    void sort_by_parent(std::vector<QueuedRay>& queue, std::size_t parents);
     void sort_by_family(std::span<QueuedRay> queue);
     std::size_t end_of_tile(std::span<const QueuedRay> queue, std::size_t begin) const;
     void load(std::span<const QueuedRay> queue, std::span<const std::uint32_t> chosen);
@@ -90,8 +91,9 @@ private:
     std::vector<Errand> surface_errands_;
     std::vector<glm::vec3> light_;
 
+    std::vector<QueuedRay> sorted_;
     std::vector<std::uint32_t> family_sizes_;
-    std::vector<std::uint32_t> order_;  ///< of a queue: family by family, then those that are alone
+    std::vector<std::uint32_t> order_;  ///< of a queue
     std::vector<glm::vec3> seen_;       ///< by number in the generation: what a ray brings to its pixel
     Generation current_, next_;
 };

@@ -6,15 +6,15 @@
 namespace firstray::inline v0 {
 namespace {
 
-/// Colour of a triangle's texture at barycentric weights; white where it has none.
-glm::vec3 texture_at(const Scene& scene, const Part& part, std::span<const Texture> textures, const RayHit& hit)
+/// The place in a triangle's texture, if it has one, at barycentric weights.
+TexturePlace place_in_texture(const Scene& scene, const Part& part, std::span<const Texture> textures, const RayHit& hit)
 {
-    if (part.texture == none) return glm::vec3(1.0f);
+    if (part.texture == none) return {};
     const glm::uvec3& corner = scene.triangles[scene.triangle_slot(hit.primitive)].uv;
-    if (corner[0] == none) return glm::vec3(1.0f);
+    if (corner[0] == none) return {};
     const auto u = static_cast<float>(hit.u), v = static_cast<float>(hit.v);
     const glm::vec2 uv = (1.0f - u - v) * scene.uvs[corner[0]] + u * scene.uvs[corner[1]] + v * scene.uvs[corner[2]];
-    return textures[part.texture].sample(uv);
+    return textures[part.texture].at(uv);
 }
 
 /// The point comes from the corners, not from t: it then lies in the triangle's plane however coarse t is.
@@ -61,7 +61,7 @@ Surface surface_at(const Pose& pose, std::span<const Texture> textures, const Ra
     s.material = &scene.materials[part.material];
     if (scene.is_triangle(hit.primitive)) {
         place_on_triangle(pose, hit, s);
-        s.texture = texture_at(scene, part, textures, hit);
+        s.place = place_in_texture(scene, part, textures, hit);
     } else {
         place_on_quadric(pose, hit, s);
     }

@@ -37,9 +37,11 @@ struct Surface {
     bool from_outside = true;   ///< whether the primitive's own normal pointed to the ray's side
     double extent = 0.0;        ///< largest coordinate, as a magnitude, that `point` was computed from
     const Material* material = nullptr;
-    glm::vec3 texture{1.0f};  ///< colour of the texture here; white without one
+    TexturePlace place;       ///< in the texture, if there is one
+    glm::vec3 texture{1.0f};  ///< colour of the texture here, once it was looked up
 };
 
+/// The surface that a ray met; its texture is still to be looked up.
 Surface surface_at(const Pose& pose, std::span<const Texture> textures, const RayHit& hit);
 
 /// Ray i of a tile after Strategy::closest; it must have hit.

@@ -19,22 +19,32 @@ glm::vec3 rgb(const std::uint8_t* texel)
 
 }  // namespace
 
-glm::vec3 Texture::sample(glm::vec2 uv) const
+glm::vec3 TexturePlace::colour() const
+{
+    if (!upper) return glm::vec3(1.0f);
+    return glm::mix(glm::mix(rgb(upper + left), rgb(upper + right), right_share),
+                    glm::mix(rgb(lower + left), rgb(lower + right), right_share), lower_share) *
+           (1.0f / 255.0f);
+}
+
+TexturePlace Texture::at(glm::vec2 uv) const
 {
     // In texels, whose centres are integers: [-1/2, size - 1/2].
     const float x = fraction(uv.x) * static_cast<float>(width) - 0.5f;
     const float y = fraction(uv.y) * static_cast<float>(height) - 0.5f;
     const int column = static_cast<int>(x + 1.0f) - 1, row = static_cast<int>(y + 1.0f) - 1;  // rounded down
-    const float right_share = x - static_cast<float>(column), lower_share = y - static_cast<float>(row);
-
-    const std::size_t left = 3 * static_cast<std::size_t>(column < 0 ? width - 1 : column);
-    const std::size_t right = 3 * static_cast<std::size_t>(column + 1 < width ? column + 1 : 0);
     const std::size_t pitch = 3 * static_cast<std::size_t>(width);
-    const std::uint8_t* upper = &pixels[pitch * static_cast<std::size_t>(row < 0 ? height - 1 : row)];
-    const std::uint8_t* lower = &pixels[pitch * static_cast<std::size_t>(row + 1 < height ? row + 1 : 0)];
-    return glm::mix(glm::mix(rgb(upper + left), rgb(upper + right), right_share),
-                    glm::mix(rgb(lower + left), rgb(lower + right), right_share), lower_share) *
-           (1.0f / 255.0f);
+    const TexturePlace place = {
+        .upper = &pixels[pitch * static_cast<std::size_t>(row < 0 ? height - 1 : row)],
+        .lower = &pixels[pitch * static_cast<std::size_t>(row + 1 < height ? row + 1 : 0)],
+        .left = 3 * static_cast<std::size_t>(column < 0 ? width - 1 : column),
+        .right = 3 * static_cast<std::size_t>(column + 1 < width ? column + 1 : 0),
+        .right_share = x - static_cast<float>(column),
+        .lower_share = y - static_cast<float>(row),
+    };
+    __builtin_prefetch(place.upper + place.left);
+    __builtin_prefetch(place.lower + place.left);
+    return place;
 }
 
 }  // namespace firstray::inline v0

@@ -180,10 +180,9 @@ glm::dvec3 pose_light(const Scene& scene, const Light& light, double time)
 /// `n` at length 1, or else `otherwise` at length 1, or else an axis: never a NaN.
 glm::dvec3 unit(const glm::dvec3& n, const glm::dvec3& otherwise)
 {
-    for (const glm::dvec3& candidate : {n, otherwise}) {
-        const double length = glm::length(candidate);
-        if (length > 0.0 && std::isfinite(length)) return candidate / length;
-    }
+    const auto has_direction = [](double length) { return length > 0.0 && std::isfinite(length); };
+    if (const double length = glm::length(n); has_direction(length)) return n / length;
+    if (const double length = glm::length(otherwise); has_direction(length)) return otherwise / length;
     return {0.0, 0.0, 1.0};
 }
 
@@ -255,7 +254,7 @@ glm::dvec3 shading_normal(const Pose& pose, PrimitiveId id, double u, double v, 
         for (int k = 0; k < 3; ++k) normal += weight[k] * keys.normal(k);
     } else {
         const glm::uvec3& index = scene.triangles[scene.triangle_slot(id)].normal;
-        if (index.x == none) return unit(geometric, geometric);
+        if (index.x == none) return geometric;
         for (int k = 0; k < 3; ++k) normal += weight[k] * glm::dvec3(scene.normals[index[k]]);
     }
     return unit(normal_matrix(pose.root_from_node[group.node]) * normal, geometric);

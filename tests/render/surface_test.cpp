@@ -32,7 +32,7 @@ TEST_CASE("a triangle's surface lies at its barycentric weights, normals turned 
         CHECK(s.normal == glm::dvec3(0, 0, side));
         CHECK(s.from_outside == (side > 0.0));
         CHECK(s.extent == 5.0);
-        CHECK(s.texture == glm::vec3(1.0f));
+        CHECK(s.place.colour() == glm::vec3(1.0f));
     }
 }
 
@@ -78,11 +78,11 @@ TEST_CASE("a triangle's texture is looked up at its interpolated coordinates")
     const Texture textures[] = {{.width = 2, .height = 1, .pixels = {255, 0, 0, 0, 0, 255}}};
     const Pose at_start = pose(scene, 0.0);
     RayHit hit{.direction = {0, 0, -1}, .t = 5.0, .u = 0.25, .v = 0.5, .primitive = 0};
-    CHECK(glm::distance(surface_at(at_start, textures, hit).texture, {0.5f, 0.0f, 0.5f}) < 1e-6f);
+    CHECK(glm::distance(surface_at(at_start, textures, hit).place.colour(), {0.5f, 0.0f, 0.5f}) < 1e-6f);
     hit.u = hit.v = 0.0;
-    CHECK(glm::distance(surface_at(at_start, textures, hit).texture, {1.0f, 0.0f, 0.0f}) < 1e-6f);
+    CHECK(glm::distance(surface_at(at_start, textures, hit).place.colour(), {1.0f, 0.0f, 0.0f}) < 1e-6f);
     hit.primitive = 1;  // in a textured part, but without coordinates
-    CHECK(surface_at(at_start, textures, hit).texture == glm::vec3(1.0f));
+    CHECK(surface_at(at_start, textures, hit).place.colour() == glm::vec3(1.0f));
 }
 
 TEST_CASE("a sphere's surface faces out, or in where the ray comes from inside")
