@@ -8,7 +8,7 @@
 #endif
 
 #include "engine/grid/beam.h"
-#include "engine/primitive/intersect.h"
+#include "engine/primitive/intersect-inl.h"
 #include "engine/primitive/pack_kernels-inl.h"
 
 HWY_BEFORE_NAMESPACE();

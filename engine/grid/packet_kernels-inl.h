@@ -8,7 +8,7 @@
 #endif
 
 #include "engine/grid/beam_kernels-inl.h"
-#include "engine/primitive/intersect.h"
+#include "engine/primitive/intersect-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace firstray::inline v0 {
@@ -114,7 +114,7 @@ HWY_INLINE hn::Vec<PackLanes> plane_ts(const ApexPlane& plane, const BeamRays& r
                               HWY_ATTR { return hn::Mul(hn::Set(d, plane.normal[axis]), load(rays.direction[axis])); };
         const auto slope = hn::Add(hn::Add(part(0), part(1)), part(2));
         const auto least =
-            hn::Mul(hn::Set(d, least_slope_in_double), hn::Mul(hn::Set(d, plane.span), load(rays.length)));
+            hn::Mul(hn::Set(d, least_slope<double>), hn::Mul(hn::Set(d, plane.span), load(rays.length)));
         const auto t = hn::IfThenElse(hn::Gt(hn::Abs(slope), least), hn::Div(hn::Set(d, plane.height), slope),
                                       hn::Set(d, std::numeric_limits<double>::quiet_NaN()));
         hn::Store(hn::DemoteTo(df, t), df, ts + i);
@@ -164,7 +164,7 @@ HWY_INLINE PacketHits test_packet(const ApexTriangle& p, PrimitiveId id, bool ex
         V t = hn::Div(set(p.height), slope);
         const V t_size = hn::Abs(t);
         const auto is_sloped = p.has_volume
-                                   ? hn::Gt(hn::Abs(slope), hn::Mul(set(least_slope), hn::Mul(set(p.span), length)))
+                                   ? hn::Gt(hn::Abs(slope), hn::Mul(set(least_slope<float>), hn::Mul(set(p.span), length)))
                                    : hn::FirstN(d, 0);
         auto is_placed = hn::And(is_sloped, hn::Ge(hn::Mul(t_size, length), set(least_distance * p.distance)));
         const V per_length = hn::Load(d, rays.inverse_length.data() + lane);

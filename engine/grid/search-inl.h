@@ -11,7 +11,7 @@
 #include "engine/grid/entries.h"
 #include "engine/grid/search.h"
 #include "engine/grid/traverse-inl.h"
-#include "engine/primitive/intersect.h"
+#include "engine/primitive/intersect-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace firstray::inline v0 {

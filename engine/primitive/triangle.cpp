@@ -5,11 +5,6 @@
 namespace firstray::inline v0 {
 namespace {
 
-RootTriangle<double> widened(const RootTriangle<float>& t)
-{
-    return {{glm::dvec3(t.v[0]), glm::dvec3(t.v[1]), glm::dvec3(t.v[2])}, static_cast<double>(t.edge)};
-}
-
 /// -1, 0 or 1: the side on which the ray passes the edge from `from` to `to`, given the rounded value.
 int side_sign(double side, double error, const glm::dvec3& from, const glm::dvec3& to, const glm::dvec3& origin,
               const glm::dvec3& direction)
@@ -37,7 +32,7 @@ double plane_t(const RootTriangle<double>& triangle, const glm::dvec3& origin, c
 {
     const TrianglePlane<double> plane = triangle_plane(triangle.v, origin, direction, 1.0);
     const double t = plane.height / plane.slope;
-    if (std::abs(plane.slope) > least_slope_in_double * (plane.span * largest_component<double>(direction))) return t;
+    if (plane.is_sloped(largest_component<double>(direction))) return t;
     double t_corner[3];
     for (int corner = 0; corner < 3; ++corner)
         t_corner[corner] = glm::dot(triangle.v[corner] - origin, direction) / glm::dot(direction, direction);

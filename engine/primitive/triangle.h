@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <type_traits>
 
 /// Inlined into kernels of every instruction set, where it is compiled for that set (but never contracted).
 #define FIRSTRAY_INLINE [[gnu::always_inline]] inline
@@ -57,8 +58,10 @@ template <typename Real>
 inline constexpr Real least_bound = std::numeric_limits<Real>::min() * Real(1 << 20);
 
 /// t comes from float only where |Ng . d| is at least this much of span * direction, with span = |e1| |e2| of the edges
-/// that make Ng: elsewhere, for needles and grazing rays, the quotient loses too much and is computed in double.
-inline constexpr float least_slope = 1.0f / 64;
+/// that make Ng: elsewhere, for needles and grazing rays, the quotient loses too much and is computed in double; below
+/// double's own limit it is worth less than the distances of the corners.
+template <typename Real>
+inline constexpr Real least_slope = std::is_same_v<Real, float> ? Real(0x1p-6) : Real(0x1p-26);
 /// ... and only where the hit is at least this part of the triangle's distance away: the numerator's error scales with
 /// the distance of the vertices, not of the hit.
 inline constexpr float least_distance = 1.0f / 8;
@@ -72,9 +75,6 @@ inline constexpr float largest_fast = 1e36f;
 
 /// Bound on float's error of t where it is sloped enough: this part of t plus distance / direction (64 * 50 half ulps).
 inline constexpr float quotient_error = 1.0f / 4096;
-
-/// Below this part of span * direction even double's quotient is worth less than the distances of the corners.
-inline constexpr double least_slope_in_double = 0x1p-26;
 
 /// How far float's t can be off under these two rules, relative to t: 64 * 50 * 9 half ulps of worst case (in practice
 /// a hundredth of it). Searches look this much beyond the nearest hit, so that they test whatever could beat it.
@@ -115,11 +115,20 @@ FIRSTRAY_INLINE Real largest_component(const glm::vec<3, Real, glm::defaultp>& v
     return std::max(std::max(std::abs(v.x), std::abs(v.y)), std::abs(v.z));
 }
 
+FIRSTRAY_INLINE RootTriangle<double> widened(const RootTriangle<float>& t)
+{
+    return {{glm::dvec3(t.v[0]), glm::dvec3(t.v[1]), glm::dvec3(t.v[2])}, static_cast<double>(t.edge)};
+}
+
 /// The quotient that gives t: height / slope = Ng . a_0 / Ng . d, with Ng from the edges at corner 0, times a unit.
 template <typename Real>
 struct TrianglePlane {
     Real slope, height;
     Real span;  ///< product of the largest components of those edges
+
+    /// Whether the quotient is worth anything.
+    /// length  largest component of the direction
+    bool is_sloped(Real length) const { return std::abs(slope) > least_slope<Real> * (span * length); }
 };
 
 template <typename Real>
@@ -186,14 +195,17 @@ FIRSTRAY_INLINE TriangleHit<float> intersect(const RootTriangle<float>& triangle
     const float length = largest_component<float>(direction);
     const TrianglePlane<float> plane = triangle_plane(triangle.v, origin, direction, edge_unit(triangle.edge));
     const bool is_sloped =
-        std::abs(plane.slope) > least_slope * (plane.span * length) && plane.span * distance > least_bound<float>;
-    float t = plane.height / plane.slope;
-    if (!is_sloped || !(std::abs(t) * length >= least_distance * distance)) {
-        // Near a large triangle float cannot place the hit well, but mostly well enough to see that it does not count.
-        const float error = quotient_error * (std::abs(t) + distance / length);
-        if (is_sloped && (t + error < range.t_min || t - error > range.t_last)) return {};
+        (int{plane.is_sloped(length)} & int{plane.span * distance > least_bound<float>}) != 0;
+    // Near large triangles and along grazing rays float cannot place the hit. Both quotients are computed at once: which
+    // of them counts is hard to foretell, and guessing wrong takes longer than a second one.
+    const float t_in_float = plane.height / plane.slope;
+    const TrianglePlane<double> fine =
+        triangle_plane(widened(triangle).v, glm::dvec3(origin), glm::dvec3(direction), 1.0);
+    const bool is_good =
+        (int{is_sloped} & int{std::abs(t_in_float) * length >= least_distance * distance}) != 0;
+    float t = is_good ? t_in_float : static_cast<float>(fine.height / fine.slope);
+    if (!is_good && !fine.is_sloped(largest_component<double>(glm::dvec3(direction)))) [[unlikely]]
         t = plane_t_in_double(triangle, origin, direction);
-    }
     if (!range.contains(t)) return {};
 
     const TriangleSides<float> s = triangle_sides(triangle.v, origin, direction);

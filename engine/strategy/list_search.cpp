@@ -7,7 +7,7 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include "engine/primitive/intersect.h"
+#include "engine/primitive/intersect-inl.h"
 #include "engine/primitive/ray_kernels-inl.h"
 #include "engine/primitive/triangle_pack.h"
 
