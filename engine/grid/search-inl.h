@@ -349,7 +349,7 @@ struct RootPrimitives {
     HWY_INLINE TriangleHit<Real> triangle(const TrianglePack& pack, int lane, PrimitiveId id, Real t_last) const
     {
         if constexpr (std::is_same_v<Real, float>)
-            return intersect_precisely(pack.triangle(lane), ray, precision, t_last);
+            return intersect_in_pack(pack, lane, ray, precision, t_last);
         else
             return intersect_precisely(geometry.triangle(id), ray, precision, t_last);
     }

@@ -12,7 +12,7 @@
 
 #include "engine/core/precision.h"
 #include "engine/core/search_ray.h"
-#include "engine/primitive/triangle.h"
+#include "engine/primitive/triangle_pack.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace firstray::inline v0 {
@@ -29,6 +29,13 @@ HWY_NOINLINE TriangleHit<Real> intersect_precisely(const RootTriangle<Real>& tri
         return intersect(triangle, ray.origin, ray.direction, precision != Precision::fast, {ray.t_min, t_last});
     else
         return intersect(triangle, ray.origin, ray.direction, {ray.t_min, t_last});
+}
+
+/// The same for a triangle in a pack, read where it is needed.
+inline HWY_NOINLINE TriangleHit<float> intersect_in_pack(const TrianglePack& pack, int lane, const SearchRay<float>& ray,
+                                                  Precision precision, float t_last)
+{
+    return intersect(pack.triangle(lane), ray.origin, ray.direction, precision != Precision::fast, {ray.t_min, t_last});
 }
 
 }  // namespace HWY_NAMESPACE
