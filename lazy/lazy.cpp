@@ -114,7 +114,10 @@ void LazyStrategy<Real>::search_lists(RayTile<Real>& rays, bool any) const
     const auto count = static_cast<std::size_t>(rays.count);
     for (std::size_t i = 0; any && i < count; ++i)
         if (rays.primitive[i] != no_primitive) rest->t_max[i] = rest->t_min[i];  // is done
+    std::vector<std::uint8_t> may_pass(rays.may_pass ? count : 0, 1);
+    if (rays.may_pass) rest->may_pass = may_pass.data();
     search_grids(nullptr, *rest, any);
+    for (std::size_t i = 0; i < may_pass.size(); ++i) rays.may_pass[i] |= may_pass[i];
     for (std::size_t i = 0; i < count; ++i) {
         if (rest->primitive[i] == no_primitive) continue;
         rays.t_max[i] = rest->t_max[i];

@@ -68,11 +68,11 @@ struct LazySearch : Search<Quest, RootPrimitives<typename Quest::Real>> {
             const PrimitiveId id = entries.ids[entry] & ~transmitting_bit;
             quest.cost.add_test();
             if (!entries.is_triangle(entry)) {
-                const auto t = primitives.quadric(id, quest.mask);
+                const auto t = primitives.quadric(id, quest);
                 if (std::isfinite(t) && this->offer(t, 0, 0, id)) return true;
                 continue;
             }
-            if (id == quest.hit.id || !admits(quest.mask, (entries.ids[entry] & transmitting_bit) != 0)) continue;
+            if (id == quest.hit.id || !quest.sees((entries.ids[entry] & transmitting_bit) != 0)) continue;
             const auto found = primitives.triangle_of(entries, entry, id, quest.hit.t);
             if (found.hit && this->offer(found.t, found.u, found.v, id)) return true;
         }
@@ -150,9 +150,10 @@ struct GroupPrimitives {
         if (!is_in_range(tested.v)) return {};  // no structure lists it
         return intersect_precisely(tested, ray, precision, t_last);
     }
-    Real quadric(PrimitiveId id, RayMask mask) const
+    template <class Quest>
+    Real quadric(PrimitiveId id, Quest& quest) const
     {
-        return intersect_rounded(geometry.quadric_alone(group, id), ray, mask);
+        return test_quadric(geometry.quadric_alone(group, id), ray, quest);
     }
 };
 

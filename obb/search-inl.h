@@ -32,12 +32,13 @@ struct BoxPrimitives {
         return intersect_precisely(tested, ray, target.precision, t_last);
     }
 
-    Real quadric(PrimitiveId id, RayMask mask) const
+    template <class Quest>
+    Real quadric(PrimitiveId id, Quest& quest) const
     {
-        if (in_root) return intersect_rounded(target.geometry->quadric_of(group, id), ray, mask);
+        if (in_root) return test_quadric(target.geometry->quadric_of(group, id), ray, quest);
         const auto found = std::lower_bound(box.quadrics.begin(), box.quadrics.end(), id,
                                             [](const RootQuadric& q, PrimitiveId wanted) { return q.id < wanted; });
-        return intersect_rounded(*found, ray, mask);
+        return test_quadric(*found, ray, quest);
     }
 
     /// The same of a primitive that no pack holds.

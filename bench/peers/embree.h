@@ -10,8 +10,10 @@
 /// - Rays with a common apex are traced as packets with RTC_INTERSECT_CONTEXT_FLAG_COHERENT, in the order of the tile's
 ///   lanes, which for a picture's rays are blocks of 4 x 4 pixels: 16 at once with AVX-512, 8 with AVX2, 4 with SSE.
 ///   The time to lay them out as Embree wants them, and to bring the hits back, is in the trace's. Other rays are
-///   traced one by one, rtcIntersect1 and rtcOccluded1. Ray streams and filter callbacks are not used; a RayMask is
-///   Embree's own ray mask, whose test is compiled in for all queries.
+///   traced one by one, rtcIntersect1 and rtcOccluded1. Ray streams are not used; a RayMask is Embree's own ray
+///   mask, whose test is compiled in for all queries.
+/// - RayTile::may_pass, which our own searches fill by the way, is filled by a filter callback of what transmits. It is
+///   called only where such a thing is met, and only in queries that ask for it.
 /// - Shadow packets through instances (embree-two-level) go without that flag: with it Embree 3.13.5 does not return on
 ///   some scenes. Why is not known.
 /// - Spheres, cones and cylinders are user geometry that the engine's own test intersects, in double, ray by ray.

@@ -1,5 +1,7 @@
 #include "bench/peers/embree_body.h"
 
+#include "bench/peers/embree_query.h"
+
 namespace firstray::peers {
 namespace {
 
@@ -20,6 +22,13 @@ Body::Slot slot_of(const Scene& scene, PrimitiveId id, bool triangle)
     const bool transmits = scene.material(id).transmits();
     if (triangle) return transmits ? Body::transmitting_triangles : Body::opaque_triangles;
     return transmits ? Body::transmitting_quadrics : Body::opaque_quadrics;
+}
+
+/// Lets rays pass what transmits where they are asked to.
+void pass_transmitting(const RTCFilterFunctionNArguments* args)
+{
+    for (unsigned i = 0; i < args->N; ++i)
+        if (args->valid[i] && note_passing(args->context, args->ray, args->N, i)) args->valid[i] = 0;
 }
 
 template <typename T>
@@ -90,6 +99,7 @@ void Body::attach(Slot slot)
                                    sizeof(glm::vec3), vertex_count_);
         rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, part.indices.data(), 0,
                                    sizeof(glm::uvec3), part.indices.size());
+        if (mask_of(slot) == transmitting_bit) rtcSetGeometryOccludedFilterFunction(geometry, &pass_transmitting);
     } else {
         set_quadrics(geometry, part.quadrics);
     }

@@ -36,15 +36,15 @@ struct alignas(4 * width) Lanes {
 
 /// Sets what is the same in all packets of a tile with a common apex. Embree leaves it as it is.
 template <int width>
-void prepare(const RayTile<float>& tile, typename PacketOf<width>::Rays& rays)
+void prepare(const RayTile<float>& tile, unsigned mask, typename PacketOf<width>::Rays& rays)
 {
     for (int i = 0; i < width; ++i) {
         rays.org_x[i] = tile.apex.x;
         rays.org_y[i] = tile.apex.y;
         rays.org_z[i] = tile.apex.z;
         rays.time[i] = 0.0f;
-        rays.mask[i] = mask_bits(tile.mask);
-        rays.id[i] = rays.flags[i] = 0;
+        rays.mask[i] = mask;
+        rays.flags[i] = 0;
     }
 }
 
@@ -65,6 +65,7 @@ Lanes<width> load(const RayTile<float>& tile, int first, typename PacketOf<width
         rays.dir_z[i] = direction.z;
         rays.tnear[i] = interval.begin;
         rays.tfar[i] = interval.end;
+        rays.id[i] = static_cast<unsigned>(first + i);
         lanes.valid[i] = -static_cast<int>((first + i < tile.count) & is_searchable(direction, t_min, t_max));
     }
     return lanes;
@@ -77,7 +78,7 @@ void closest_in_packets(RTCScene scene, RayTile<float>& tile, const BodyOf& body
 {
     RTCIntersectContext context = context_with(RTC_INTERSECT_CONTEXT_FLAG_COHERENT);
     typename PacketOf<width>::RayHits query;
-    prepare<width>(tile, query.ray);
+    prepare<width>(tile, mask_bits(tile.mask), query.ray);
     for (int first = 0; first < tile.count; first += width) {
         const Lanes<width> lanes = load<width>(tile, first, query.ray);
         for (int i = 0; i < width; ++i) query.hit.geomID[i] = query.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
@@ -99,9 +100,9 @@ void closest_in_packets(RTCScene scene, RayTile<float>& tile, const BodyOf& body
 template <int width>
 void occluded_in_packets(RTCScene scene, RayTile<float>& tile, PrimitiveId met, RTCIntersectContextFlags flags)
 {
-    RTCIntersectContext context = context_with(flags);
+    ShadowContext context = shadow_context(tile, flags);
     typename PacketOf<width>::Rays rays;
-    prepare<width>(tile, rays);
+    prepare<width>(tile, shadow_mask_bits(tile), rays);
     for (int first = 0; first < tile.count; first += width) {
         const Lanes<width> lanes = load<width>(tile, first, rays);
         PacketOf<width>::occluded(lanes.valid, scene, &context, &rays);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "bench/peers/embree_query.h"
+
 namespace firstray::peers {
 namespace {
 
@@ -40,8 +42,10 @@ void intersect(const RTCIntersectFunctionNArguments* args)
 void occluded(const RTCOccludedFunctionNArguments* args)
 {
     const unsigned n = args->N;
+    const bool transmits = static_cast<const RootQuadric*>(args->geometryUserPtr)[args->primID].transmits;
     for (unsigned i = 0; i < n; ++i)
-        if (args->valid[i] && nearest(args->geometryUserPtr, args->primID, args->ray, n, i) < infinity)
+        if (args->valid[i] && nearest(args->geometryUserPtr, args->primID, args->ray, n, i) < infinity &&
+            !(transmits && note_passing(args->context, args->ray, n, i)))
             RTCRayN_tfar(args->ray, n, i) = -infinity;  // Embree's sign that something was met
 }
 

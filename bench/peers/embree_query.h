@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <bit>
 #include <cstdint>
 #include <limits>
@@ -43,12 +44,45 @@ inline ClosedInterval inside(float t_min, float t_max)
     return {t_min > 0.0f ? neighbour(t_min, 1u) : std::numeric_limits<float>::min(), neighbour(t_max, -1u)};
 }
 
+/// The context of every occluded query. Where there is `may_pass`, by the rays' ids, what transmits does not stop them
+/// but is noted there.
+struct ShadowContext : RTCIntersectContext {
+    std::uint8_t* may_pass;
+};
+
+/// Notes that ray i of n meets what transmits; false where that stops it.
+inline bool note_passing(const RTCIntersectContext* context, RTCRayN* rays, unsigned n, unsigned i)
+{
+    std::uint8_t* const may_pass = static_cast<const ShadowContext*>(context)->may_pass;
+    if (may_pass) may_pass[RTCRayN_id(rays, n, i)] = 1;
+    return may_pass != nullptr;
+}
+
 inline RTCIntersectContext context_with(RTCIntersectContextFlags flags)
 {
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
     context.flags = flags;
     return context;
+}
+
+/// Whether a tile's occluded query is to note which rays pass what transmits.
+inline bool notes_passing(const RayTile<float>& tile)
+{
+    return tile.may_pass && tile.mask == RayMask::opaque;
+}
+
+inline ShadowContext shadow_context(RayTile<float>& tile, RTCIntersectContextFlags flags)
+{
+    ShadowContext context{context_with(flags), notes_passing(tile) ? tile.may_pass : nullptr};
+    if (context.may_pass) std::fill_n(context.may_pass, tile.count, std::uint8_t{0});
+    return context;
+}
+
+/// The mask of a tile's occluded query.
+inline unsigned shadow_mask_bits(const RayTile<float>& tile)
+{
+    return mask_bits(notes_passing(tile) ? RayMask::all : tile.mask);
 }
 
 }  // namespace firstray::peers

@@ -17,7 +17,8 @@ inline bool load(const RayTile<float>& tile, int i, RTCRay& ray)
     ray.tnear = interval.begin, ray.tfar = interval.end;
     ray.time = 0.0f;
     ray.mask = mask_bits(tile.mask);
-    ray.id = ray.flags = 0;
+    ray.id = static_cast<unsigned>(i);
+    ray.flags = 0;
     return true;
 }
 
@@ -42,11 +43,12 @@ void closest_one_by_one(RTCScene scene, RayTile<float>& tile, const BodyOf& body
 
 inline void occluded_one_by_one(RTCScene scene, RayTile<float>& tile, PrimitiveId met)
 {
-    RTCIntersectContext context = context_with(RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT);
+    ShadowContext context = shadow_context(tile, RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT);
     for (int i = 0; i < tile.count; ++i) {
         RTCRay ray;
         bool is_met = false;
         if (load(tile, i, ray)) {
+            ray.mask = shadow_mask_bits(tile);
             rtcOccluded1(scene, &context, &ray);
             is_met = ray.tfar < 0.0f;  // minus infinity where something was met
         }

@@ -35,6 +35,7 @@ struct BeamRays {
     alignas(64) Lane u;
     alignas(64) Lane v;
     alignas(64) std::array<PrimitiveId, capacity> id;
+    PacketMask may_pass = 0;  ///< packets with rays that may meet what the mask excludes; for Query::any
 
     glm::vec3 direction_of(std::size_t ray) const { return {direction[0][ray], direction[1][ray], direction[2][ray]}; }
 };

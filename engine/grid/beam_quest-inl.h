@@ -79,6 +79,7 @@ struct BeamQuest {
                 Quest<query, float, NoCost> quest{
                     single, mask, {}, {rays.t[ray], rays.u[ray], rays.v[ray], rays.id[ray]}};
                 search(quest);
+                if (quest.may_pass) rays.may_pass |= PacketMask{1} << packet;
                 if (quest.hit.id == rays.id[ray] && quest.hit.t == rays.t[ray]) continue;
                 put(ray, quest.hit.t, quest.hit.u, quest.hit.v, quest.hit.id);
                 hits |= 1u << lane;

@@ -45,6 +45,7 @@ HWY_INLINE void load_rays(const RayTile<float>& tile, const std::int32_t* lanes,
     const hn::RebindToUnsigned<PackLanes> du;
     rays.apex = tile.apex;
     rays.packets = (count + packet_size - 1) / packet_size;
+    rays.may_pass = 0;
     alignas(64) std::int32_t padded[packet_size];
     for (int first = 0; first < rays.packets * packet_size; first += kernel_lanes) {
         const auto to = static_cast<std::size_t>(first);
@@ -286,6 +287,17 @@ HWY_INLINE void store_hits(const BeamRays& rays, const std::int32_t* lanes, int 
     }
 }
 
+/// Puts down in the tile which rays may meet what the mask excludes.
+/// lanes  as load_rays() took them
+inline void store_may_pass(const BeamRays& rays, const std::int32_t* lanes, int count, RayTile<float>& tile)
+{
+    for (int i = 0; i < count; ++i) {
+        const int lane = lanes ? lanes[i] : i;
+        if (lane < 0) continue;  // it fills up a packet
+        tile.may_pass[lane] = rays.may_pass >> (i / packet_size) & 1;
+    }
+}
+
 /// Sends a tile's rays on their quests as beams, and those that make none one by one.
 /// search  `search(rays, root)` searches whatever there is for a beam
 /// one     `one(lane)` does for one ray
@@ -305,6 +317,7 @@ HWY_NOINLINE void search_by_beams(RayTile<float>& tile, const Grid* top, const S
         finish_beam(root);
         if (root.packets != 0) search(rays, root);
         store_hits(rays, order.lanes_of(part), part.count, tile);
+        if (tile.may_pass) store_may_pass(rays, order.lanes_of(part), part.count, tile);
     };
     const auto send_alone = [&](int first) HWY_ATTR {
         for (int i = first; i < order.singles; ++i) one(order.single[i]);

@@ -98,8 +98,17 @@ struct BeamSearch {
                                    const BeamTriangles& triangles)
     {
         const std::uint32_t marked = pack.id[lane];
-        if (!admits(quest.mask, (marked & transmitting_bit) != 0)) return 0;
-        const PacketMask asked = quest.mailbox.untested(marked & ~transmitting_bit, packets);
+        if (!admits(quest.mask, (marked & transmitting_bit) != 0)) {
+            if constexpr (BeamQuest::query == Query::any)
+                quest.rays.may_pass |= meeting(pack, lane, packets & ~quest.rays.may_pass, triangles);
+            return 0;
+        }
+        return meeting(pack, lane, quest.mailbox.untested(marked & ~transmitting_bit, packets), triangles);
+    }
+
+    /// The packets of those asked that may have a ray that meets a triangle.
+    HWY_INLINE PacketMask meeting(const TrianglePack& pack, int lane, PacketMask asked, const BeamTriangles& triangles)
+    {
         if (asked == 0) return 0;
         if (std::isfinite(triangles.error[lane])) return packets_meeting(beam, triangles, lane, asked);
         // Its sides tell nothing: it is seen edge-on, or from so far away that float does not tell them apart.
@@ -146,9 +155,12 @@ struct BeamSearch {
 
     HWY_NOINLINE void quadric(const RootQuadric& quadric, PacketMask packets)
     {
-        if (!admits(quest.mask, quadric.transmits)) return;
+        if (!admits(quest.mask, quadric.transmits)) {
+            quest.rays.may_pass |= packets;
+            return;
+        }
         quest.each_ray(packets, beam, [&](auto& single) {
-            const float t = intersect_rounded(quadric, single.ray, single.mask);
+            const float t = intersect_rounded(quadric, single.ray);
             if (std::isfinite(t)) single.take(t, 0.0f, 0.0f, quadric.id);
         });
     }

@@ -45,7 +45,7 @@ HWY_INLINE std::uint32_t oriented_boxes_met(const BoxPack& pack, const WalkRay& 
 }
 
 /// Tests `count` primitives of a group from `first` on, none of them in a structure; returns whether the ray is done.
-/// primitives  what is tested: `alone(id, t_last)` and `quadric(id, mask)`
+/// primitives  what is tested: `alone(id, t_last)` and `quadric(id, quest)`
 template <class Quest, class Primitives>
 HWY_INLINE bool test_one_by_one(Quest& quest, const Group& group, PrimitiveId first, std::uint32_t count,
                                 const RootGeometry<typename Quest::Real>& geometry, const Primitives& primitives)
@@ -54,9 +54,9 @@ HWY_INLINE bool test_one_by_one(Quest& quest, const Group& group, PrimitiveId fi
         quest.cost.add_test();
         TriangleHit<typename Quest::Real> found;
         if (id - group.first >= group.triangles) {
-            found.t = primitives.quadric(id, quest.mask);
+            found.t = primitives.quadric(id, quest);
             found.hit = std::isfinite(found.t);
-        } else if (id != quest.hit.id && admits(quest.mask, geometry.transmits(id))) {
+        } else if (id != quest.hit.id && quest.sees(geometry.transmits(id))) {
             found = primitives.alone(id, quest.hit.t);
         }
         if (found.hit && quest.take(found.t, found.u, found.v, id) && Quest::query == Query::any) return true;

@@ -47,6 +47,15 @@ struct Quest {
     RayMask mask;
     Cost cost;
     Hit<Real> hit;
+    bool may_pass = false;  ///< something that the mask excludes, if nothing is hit
+
+    /// Whether the mask admits a primitive that the ray may meet.
+    bool sees(bool transmits)
+    {
+        const bool is_admitted = admits(mask, transmits);
+        may_pass |= !is_admitted;
+        return is_admitted;
+    }
 
     /// Takes a hit if it counts; returns whether it does.
     bool take(Real t, Real u, Real v, PrimitiveId id)
@@ -248,7 +257,7 @@ struct Search {
             lanes &= ~(1u << lane);
             const std::uint32_t marked = pack.id[lane];
             const PrimitiveId id = marked & ~transmitting_bit;
-            if (id == quest.hit.id || !admits(quest.mask, (marked & transmitting_bit) != 0)) continue;
+            if (id == quest.hit.id || !quest.sees((marked & transmitting_bit) != 0)) continue;
             const TriangleHit<Real> found = primitives.triangle(pack, lane, id, quest.hit.t);
             if (!found.hit) continue;
             if (offer(found.t, found.u, found.v, id)) return true;
@@ -262,7 +271,7 @@ struct Search {
         for (std::uint32_t q = 0; q < voxel.quadrics; ++q) {
             const PrimitiveId id = structure->quadrics[voxel.first_quadric + q];
             quest.cost.add_test();
-            const Real t = primitives.quadric(id, quest.mask);
+            const Real t = primitives.quadric(id, quest);
             if (std::isfinite(t) && offer(t, 0, 0, id)) return true;
         }
         return false;
@@ -339,6 +348,14 @@ private:
     const Grid* HWY_RESTRICT grids_;
 };
 
+/// t of a quadric that a quest sees; infinite where the ray does not meet it.
+template <typename Real, class Quest>
+Real test_quadric(const RootQuadric& quadric, const SearchRay<Real>& ray, Quest& quest)
+{
+    if (!quest.sees(quadric.transmits)) return std::numeric_limits<Real>::infinity();
+    return intersect_rounded(quadric, ray);
+}
+
 /// The primitives of a structure in the root system, where hits are decided.
 template <typename Real>
 struct RootPrimitives {
@@ -361,7 +378,11 @@ struct RootPrimitives {
         else
             return intersect_precisely(geometry.triangle(id), ray, precision, t_last);
     }
-    Real quadric(PrimitiveId id, RayMask mask) const { return intersect_rounded(geometry.quadric(id), ray, mask); }
+    template <class Quest>
+    Real quadric(PrimitiveId id, Quest& quest) const
+    {
+        return test_quadric(geometry.quadric(id), ray, quest);
+    }
 };
 
 /// Searches a whole structure in the root system for a quest; returns whether the ray is done.
@@ -375,6 +396,12 @@ HWY_INLINE void search_root(const SearchTarget<typename Quest::Real>& target, co
         search.run(resolve);
 }
 
+template <class Quest, typename Real>
+HWY_INLINE void store_may_pass(const Quest& quest, RayTile<Real>& tile, int lane)
+{
+    if (Quest::query == Query::any && tile.may_pass) tile.may_pass[lane] = quest.may_pass;
+}
+
 /// Sends one ray of a tile on its quest.
 template <Query query, typename Real, class Searcher>
 HWY_INLINE void search_ray(RayTile<Real>& tile, int lane, const Searcher& searcher)
@@ -386,6 +413,7 @@ HWY_INLINE void search_ray(RayTile<Real>& tile, int lane, const Searcher& search
         if (tile.cost == nullptr) {
             Quest<query, Real, NoCost> quest{ray, tile.mask, {}, {ray.t_max}};
             searcher(quest);
+            store_may_pass(quest, tile, lane);
             return store_hit(ray, quest.hit, tile, lane);
         }
     }
@@ -393,6 +421,7 @@ HWY_INLINE void search_ray(RayTile<Real>& tile, int lane, const Searcher& search
     const Clock::time_point begin = Clock::now();
     Quest<query, Real, CountCost> quest{ray, tile.mask, {tile.cost ? tile.cost + lane : &unasked}, {ray.t_max}};
     searcher(quest);
+    store_may_pass(quest, tile, lane);
     store_hit(ray, quest.hit, tile, lane);
     quest.cost.cost->nanoseconds += static_cast<std::uint64_t>((Clock::now() - begin).count());
 }

@@ -26,12 +26,11 @@ double intersect(const RootQuadric& quadric, const glm::dvec3& origin, const glm
                  double t_max);
 
 /// The nearest t beyond t_min at which a search ray meets the surface, rounded to the ray's precision; infinity where it
-/// does not, or where the mask does not admit the surface. Not cut off at t_max: whether the rounded t counts must not
+/// does not. Not cut off at t_max: whether the rounded t counts must not
 /// depend on what was found before.
 template <typename Real>
-Real intersect_rounded(const RootQuadric& quadric, const SearchRay<Real>& ray, RayMask mask)
+Real intersect_rounded(const RootQuadric& quadric, const SearchRay<Real>& ray)
 {
-    if (!admits(mask, quadric.transmits)) return std::numeric_limits<Real>::infinity();
     return static_cast<Real>(intersect(quadric, glm::dvec3(ray.origin), glm::dvec3(ray.direction),
                                        static_cast<double>(ray.t_min), std::numeric_limits<double>::infinity()));
 }

@@ -30,9 +30,12 @@ auto ShadowTracer<Real>::trace(std::span<const Surface> surfaces, const Slots& s
     if (rays_.count == 0) return visibility_;
     rays_.mask = any_transmitting_ ? RayMask::opaque : RayMask::all;
     rays_traced_ += static_cast<std::uint64_t>(rays_.count);
+    may_pass_.fill(1);
+    rays_.may_pass = any_transmitting_ ? may_pass_.data() : nullptr;
     search_.occluded(rays_, slots_);
-    drop_occluded();
-    if (any_transmitting_) follow_through_transmitting();
+    rays_.may_pass = nullptr;
+    drop_finished();
+    follow_through_transmitting();
     return visibility_;
 }
 
@@ -55,16 +58,18 @@ void ShadowTracer<Real>::aim(std::span<const Surface> surfaces, const Slots& slo
     rays_.count = count;
 }
 
-/// Keeps the rays that met nothing, in order, and lets the light through to their surfaces.
+/// Lets the light through to the surfaces of rays that met nothing, and keeps those that may meet what transmits, in
+/// order.
 template <typename Real>
-void ShadowTracer<Real>::drop_occluded()
+void ShadowTracer<Real>::drop_finished()
 {
     int kept = 0;
     for (int i = 0; i < rays_.count; ++i) {
         const auto lane = static_cast<std::size_t>(i);
         if (rays_.primitive[lane] != no_primitive) continue;
         visibility_[surface_[lane]] = 1.0f;
-        keep(kept++, i);
+        rays_traced_ += any_transmitting_;
+        if (any_transmitting_ && may_pass_[lane] != 0) keep(kept++, i);
     }
     rays_.count = kept;
 }
@@ -77,7 +82,6 @@ void ShadowTracer<Real>::follow_through_transmitting()
 {
     rays_.mask = RayMask::transmitting;
     while (rays_.count > 0) {
-        rays_traced_ += static_cast<std::uint64_t>(rays_.count);
         search_.closest(rays_, slots_);
         int kept = 0;
         for (int i = 0; i < rays_.count; ++i) {
@@ -88,6 +92,7 @@ void ShadowTracer<Real>::follow_through_transmitting()
             keep(kept++, i);
         }
         rays_.count = kept;
+        rays_traced_ += static_cast<std::uint64_t>(kept);
     }
 }
 

@@ -26,12 +26,12 @@ public:
     const Visibility& trace(std::span<const Surface> surfaces, const Slots& slots, const glm::dvec3& light);
 
     /// Rays traced so far: one for each surface that responds to a light, and one for each further look for a
-    /// transmitting surface.
+    /// transmitting surface, even if the search before could tell that there is none.
     std::uint64_t rays_traced() const { return rays_traced_; }
 
 private:
     void aim(std::span<const Surface> surfaces, const Slots& slots, const glm::dvec3& light);
-    void drop_occluded();
+    void drop_finished();
     void follow_through_transmitting();
     void keep(int to, int from);
 
@@ -42,6 +42,7 @@ private:
     RayTile<Real> rays_;
     Slots slots_;                                  ///< by ray: its pixel
     std::array<std::uint16_t, capacity> surface_;  ///< by ray: the surface it runs to
+    std::array<std::uint8_t, capacity> may_pass_;  ///< by ray: whether it may meet what transmits
     Visibility visibility_;
 };
 

@@ -91,7 +91,7 @@ void search_tile(const RootGeometry<Real>& geometry, Precision precision, bool a
         if (!admits(tile.mask, quadric.transmits)) continue;
         ++tests;
         for (std::size_t i = 0; i < static_cast<std::size_t>(search->lanes.count); ++i) {
-            const Real t = intersect_rounded(quadric, search->rays[i], tile.mask);
+            const Real t = intersect_rounded(quadric, search->rays[i]);
             if (std::isfinite(t)) search->offer(i, t, 0, 0, quadric.id);
         }
     }

@@ -153,6 +153,46 @@ TEST_CASE("rays that look only for what transmits light find it among what does 
     MESSAGE("hits compared: " << hits);
 }
 
+TEST_CASE("looking for what is opaque tells, by the way, which rays may pass what transmits")
+{
+    SmallScene small;
+    small.quad({}, {-9, 0, -9}, {18, 0, 0}, {0, 0, 18});
+    for (int i = 0; i < 40; ++i)  // a window of many panes
+        small.quad({.transmittance = 0.5f}, {-4.0 + 0.1 * i, 3, -4}, {0.1, 0, 0}, {0, 0, 4});
+    const Scene scene = small.build();
+    std::vector<TestRay> beams, singles;
+    for (int i = 0; i < 1024; ++i) {
+        const glm::dvec3 end(-8.0 + 0.5 * (i % 32), 1, -8.0 + 0.5 * (i / 32));
+        beams.push_back({{1, 9, 1}, end - glm::dvec3(1, 9, 1), 0.0, 1.0});
+        singles.push_back({{1 + 1e-3 * i, 9, 1}, end - glm::dvec3(1 + 1e-3 * i, 9, 1), 0.0, 1.0});
+    }
+    for (const StrategyEntry& entry : strategies()) {
+        if (!entry.make || entry.name == "list") continue;
+        CAPTURE(entry.name);
+        const auto strategy = entry.make(scene, {});
+        strategy->update(pose(scene, 0.0));
+        for (const auto& rays : {beams, singles}) {
+            const auto any = make_tile<float>(rays, 0, RayMask::opaque),
+                       met = make_tile<float>(rays, 0, RayMask::transmitting);
+            std::vector<std::uint8_t> may_pass(1024, 1);
+            any->may_pass = may_pass.data();
+            strategy->occluded(*any);
+            strategy->closest(*met);
+            int wrong = 0, needless = 0, passing = 0;
+            for (std::size_t i = 0; i < 1024; ++i) {
+                CHECK(any->primitive[i] == no_primitive);
+                const bool passes = met->primitive[i] != no_primitive;
+                passing += passes;
+                wrong += passes && !may_pass[i];
+                needless += !passes && may_pass[i];
+            }
+            CHECK(wrong == 0);
+            CHECK(passing > 50);
+            CHECK(needless < (any->common_apex ? 150 : 15));  // packets of a beam are told together
+        }
+    }
+}
+
 TEST_CASE("every shape of grid finds the same hits")
 {
     int hits = 0;

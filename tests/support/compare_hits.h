@@ -1,4 +1,5 @@
 #pragma once
+#include <cstdint>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -21,15 +22,21 @@ public:
             }
     }
 
-    /// Rays whose nearest hit is not, bit for bit, the list's; or whose occlusion differs.
+    /// Rays whose nearest hit is not, bit for bit, the list's; or whose occlusion differs; or of which `other` wrongly says
+    /// that they meet nothing that transmits.
     /// hits  raised by how many of the rays hit something
     int differences(const Strategy<Real>& other, int& hits) const
     {
         int different = 0;
-        for (const auto& [first, expected] : tiles_) {
+        for (std::size_t tile = 0; tile < tiles_.size(); ++tile) {
+            const auto& [first, expected] = tiles_[tile];
+            const RayTile<Real>* const transmitting =
+                expected->mask == RayMask::opaque ? tiles_[tile + tiles_.size() / 3].found.get() : nullptr;
+            std::vector<std::uint8_t> may_pass(static_cast<std::size_t>(expected->count), 1);
             const auto found = make_tile<Real>(rays_, first, expected->mask),
                        any = make_tile<Real>(rays_, first, expected->mask);
             other.closest(*found);
+            any->may_pass = may_pass.data();
             other.occluded(*any);
             for (std::size_t i = 0; i < static_cast<std::size_t>(expected->count); ++i) {
                 const bool hit = expected->primitive[i] != no_primitive;
@@ -37,6 +44,7 @@ public:
                 bool same = expected->primitive[i] == found->primitive[i] && expected->t_max[i] == found->t_max[i] &&
                             hit == (any->primitive[i] != no_primitive);
                 if (hit) same = same && expected->u[i] == found->u[i] && expected->v[i] == found->v[i];
+                if (transmitting && !hit) same = same && (may_pass[i] || transmitting->primitive[i] == no_primitive);
                 different += !same;
             }
         }
