@@ -15,6 +15,13 @@ double largest_of(const DAabb& scenery, const Aabb& movers)
     return std::max(largest_coordinate(scenery), static_cast<double>(largest_coordinate(movers))) * (1.0 + 1e-6);
 }
 
+/// What is built of scenery stays as it is, however many frames come.
+GridOptions kept(GridOptions shape)
+{
+    shape.order = PackOrder::by_surface;
+    return shape;
+}
+
 }  // namespace
 
 template <typename Real>
@@ -23,7 +30,7 @@ Scenery<Real>::Scenery(const Scene& scene, const RootGeometry<Real>& geometry, s
     : geometry_(geometry),
       movers_(room_of_movers(scene, bounds)),
       largest_(scene.groups[0].primitives() == 0 ? 0.0 : largest_of(bounds[0], movers_)),
-      options_(options),
+      options_(kept(options)),
       ledger_(ledger),
       chooser_(chooser),
       primitives_(scene.groups[0].primitives())
