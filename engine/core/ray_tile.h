@@ -67,8 +67,8 @@ struct RayTile {
     /// one by one, since a beam's cannot be told apart.
     RayCost* cost = nullptr;
 
-    /// `count` entries, 1 each, or null: for occluded with RayMask::opaque. A search that can tell by the way clears those
-    /// of rays that certainly meet nothing that transmits. Entries of rays that are occluded mean nothing.
+    /// `count` entries, 1 each, or null: for occluded with RayMask::opaque. A search that can tell by the way clears
+    /// those of rays that certainly meet nothing that transmits. Entries of rays that are occluded mean nothing.
     std::uint8_t* may_pass = nullptr;
 
     Vec origin_of(int i) const { return common_apex ? apex : get(origin, i); }  ///< of ray i

@@ -113,8 +113,7 @@ HWY_INLINE hn::Vec<PackLanes> plane_ts(const ApexPlane& plane, const BeamRays& r
         const auto part = [&](int axis)
                               HWY_ATTR { return hn::Mul(hn::Set(d, plane.normal[axis]), load(rays.direction[axis])); };
         const auto slope = hn::Add(hn::Add(part(0), part(1)), part(2));
-        const auto least =
-            hn::Mul(hn::Set(d, least_slope<double>), hn::Mul(hn::Set(d, plane.span), load(rays.length)));
+        const auto least = hn::Mul(hn::Set(d, least_slope<double>), hn::Mul(hn::Set(d, plane.span), load(rays.length)));
         const auto t = hn::IfThenElse(hn::Gt(hn::Abs(slope), least), hn::Div(hn::Set(d, plane.height), slope),
                                       hn::Set(d, std::numeric_limits<double>::quiet_NaN()));
         hn::Store(hn::DemoteTo(df, t), df, ts + i);
@@ -163,9 +162,9 @@ HWY_INLINE PacketHits test_packet(const ApexTriangle& p, PrimitiveId id, bool ex
         const V slope = dot(p.normal);
         V t = hn::Div(set(p.height), slope);
         const V t_size = hn::Abs(t);
-        const auto is_sloped = p.has_volume
-                                   ? hn::Gt(hn::Abs(slope), hn::Mul(set(least_slope<float>), hn::Mul(set(p.span), length)))
-                                   : hn::FirstN(d, 0);
+        const auto is_sloped =
+            p.has_volume ? hn::Gt(hn::Abs(slope), hn::Mul(set(least_slope<float>), hn::Mul(set(p.span), length)))
+                         : hn::FirstN(d, 0);
         auto is_placed = hn::And(is_sloped, hn::Ge(hn::Mul(t_size, length), set(least_distance * p.distance)));
         const V per_length = hn::Load(d, rays.inverse_length.data() + lane);
         const V t_error = hn::Mul(set(quotient_error), hn::Add(t_size, hn::Mul(set(p.distance), per_length)));

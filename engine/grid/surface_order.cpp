@@ -1,7 +1,6 @@
 #include "engine/grid/surface_order.h"
 
 #include <algorithm>
-#include <array>
 #include <cstdint>
 #include <limits>
 #include <vector>
@@ -62,12 +61,12 @@ private:
     {
         places_.clear();
         for (const Item& item : items)
-            places_.push_back({item.box.lo[axis] + item.box.hi[axis], item.triangle.id,
-                               static_cast<std::uint32_t>(places_.size())});
+            places_.push_back(
+                {item.box.lo[axis] + item.box.hi[axis], item.triangle.id, static_cast<std::uint32_t>(places_.size())});
         std::sort(places_.begin(), places_.end(), [](const Place& a, const Place& b) {
             return a.middle < b.middle || (a.middle == b.middle && a.id < b.id);
         });
-        std::vector<std::uint32_t>& order = order_[static_cast<std::size_t>(axis)];
+        std::vector<std::uint32_t>& order = order_[axis];
         order.clear();
         for (const Place& place : places_) order.push_back(place.item);
     }
@@ -76,7 +75,7 @@ private:
     void visit(const Range& range, const Take& take)
     {
         if (range.size() <= pack_size) {
-            for (std::size_t i = range.begin; i < range.end; ++i) take(items[order_[static_cast<std::size_t>(range.axis)][i]]);
+            for (std::size_t i = range.begin; i < range.end; ++i) take(items[order_[range.axis][i]]);
             return;
         }
         Cut best;
@@ -90,7 +89,7 @@ private:
     /// Replaces `best` by the best cut along an axis if that is better.
     void find_cut(const Range& range, int axis, Cut& best)
     {
-        const std::uint32_t* const order = order_[static_cast<std::size_t>(axis)].data() + range.begin;
+        const std::uint32_t* const order = order_[axis].data() + range.begin;
         const std::size_t packs = (range.size() + pack_size - 1) / pack_size;
         boxes_.assign(packs, {});
         for (std::size_t i = 0; i < range.size(); ++i) boxes_[i / pack_size].grow(items[order[i]].box);
@@ -112,7 +111,7 @@ private:
     /// Brings the items on the near side to the front of every axis' order.
     void cut(const Range& range, const Cut& at)
     {
-        const std::vector<std::uint32_t>& along = order_[static_cast<std::size_t>(at.axis)];
+        const std::vector<std::uint32_t>& along = order_[at.axis];
         for (std::size_t i = range.begin; i < range.end; ++i) is_near_[along[i]] = i < range.begin + at.items;
         for (std::vector<std::uint32_t>& order : order_) {
             if (&order == &along) continue;
@@ -127,8 +126,8 @@ private:
         }
     }
 
-    std::array<std::vector<std::uint32_t>, 3> order_;  ///< by axis
-    std::vector<std::uint8_t> is_near_;                ///< by item
+    std::vector<std::uint32_t> order_[3];  ///< by axis
+    std::vector<std::uint8_t> is_near_;    ///< by item
     std::vector<std::uint32_t> far_;
     std::vector<Place> places_;
     std::vector<Aabb> boxes_;    ///< by pack

@@ -19,8 +19,8 @@ namespace firstray::inline v0 {
 namespace HWY_NAMESPACE {
 
 /// The test of a search ray and a triangle, in the precision asked for: hits with t_min < t <= t_last. A function of
-/// its own for all kernels: inlined there, it made them so large that the compiler stopped inlining its arithmetic. And
-/// one of the kernels' instruction set: calls of others have the wide registers cleared each time.
+/// its own for all kernels: inlined there, it made them so large that the compiler stopped inlining its arithmetic. For
+/// each instruction set, since single rays spend a fifth of their time here.
 template <typename Real>
 HWY_NOINLINE TriangleHit<Real> intersect_precisely(const RootTriangle<Real>& triangle, const SearchRay<Real>& ray,
                                                    Precision precision, Real t_last)
@@ -32,8 +32,8 @@ HWY_NOINLINE TriangleHit<Real> intersect_precisely(const RootTriangle<Real>& tri
 }
 
 /// The same for a triangle in a pack, read where it is needed.
-inline HWY_NOINLINE TriangleHit<float> intersect_in_pack(const TrianglePack& pack, int lane, const SearchRay<float>& ray,
-                                                  Precision precision, float t_last)
+inline HWY_NOINLINE TriangleHit<float> intersect_in_pack(const TrianglePack& pack, int lane,
+                                                         const SearchRay<float>& ray, Precision precision, float t_last)
 {
     return intersect(pack.triangle(lane), ray.origin, ray.direction, precision != Precision::fast, {ray.t_min, t_last});
 }

@@ -25,9 +25,8 @@ RootQuadric place_quadric(const Quadric& shape, const Transform& root_from_group
 double intersect(const RootQuadric& quadric, const glm::dvec3& origin, const glm::dvec3& direction, double t_min,
                  double t_max);
 
-/// The nearest t beyond t_min at which a search ray meets the surface, rounded to the ray's precision; infinity where it
-/// does not. Not cut off at t_max: whether the rounded t counts must not
-/// depend on what was found before.
+/// The nearest t beyond t_min at which a search ray meets the surface, rounded to the ray's precision; infinity where
+/// it does not. Not cut off at t_max: whether the rounded t counts must not depend on what was found before.
 template <typename Real>
 Real intersect_rounded(const RootQuadric& quadric, const SearchRay<Real>& ray)
 {

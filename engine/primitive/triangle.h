@@ -128,7 +128,7 @@ struct TrianglePlane {
 
     /// Whether the quotient is worth anything.
     /// length  largest component of the direction
-    bool is_sloped(Real length) const { return std::abs(slope) > least_slope<Real> * (span * length); }
+    FIRSTRAY_INLINE bool is_sloped(Real length) const { return std::abs(slope) > least_slope<Real> * (span * length); }
 };
 
 template <typename Real>
@@ -194,15 +194,13 @@ FIRSTRAY_INLINE TriangleHit<float> intersect(const RootTriangle<float>& triangle
     const float distance = largest_component<float>(triangle.v[0] - origin) + triangle.edge;
     const float length = largest_component<float>(direction);
     const TrianglePlane<float> plane = triangle_plane(triangle.v, origin, direction, edge_unit(triangle.edge));
-    const bool is_sloped =
-        (int{plane.is_sloped(length)} & int{plane.span * distance > least_bound<float>}) != 0;
-    // Near large triangles and along grazing rays float cannot place the hit. Both quotients are computed at once: which
-    // of them counts is hard to foretell, and guessing wrong takes longer than a second one.
+    const bool is_sloped = (int{plane.is_sloped(length)} & int{plane.span * distance > least_bound<float>}) != 0;
+    // Near large triangles and along grazing rays float cannot place the hit. Both quotients are computed at once:
+    // which of them counts is hard to foretell, and guessing wrong takes longer than a second one.
     const float t_in_float = plane.height / plane.slope;
     const TrianglePlane<double> fine =
         triangle_plane(widened(triangle).v, glm::dvec3(origin), glm::dvec3(direction), 1.0);
-    const bool is_good =
-        (int{is_sloped} & int{std::abs(t_in_float) * length >= least_distance * distance}) != 0;
+    const bool is_good = (int{is_sloped} & int{std::abs(t_in_float) * length >= least_distance * distance}) != 0;
     float t = is_good ? t_in_float : static_cast<float>(fine.height / fine.slope);
     if (!is_good && !fine.is_sloped(largest_component<double>(glm::dvec3(direction)))) [[unlikely]]
         t = plane_t_in_double(triangle, origin, direction);

@@ -7,7 +7,8 @@ namespace firstray::inline v0 {
 namespace {
 
 /// The place in a triangle's texture, if it has one, at barycentric weights.
-TexturePlace place_in_texture(const Scene& scene, const Part& part, std::span<const Texture> textures, const RayHit& hit)
+TexturePlace place_in_texture(const Scene& scene, const Part& part, std::span<const Texture> textures,
+                              const RayHit& hit)
 {
     if (part.texture == none) return {};
     const glm::uvec3& corner = scene.triangles[scene.triangle_slot(hit.primitive)].uv;

@@ -51,8 +51,8 @@ std::array<glm::dvec3, 3> triangle_corners(const Pose& pose, PrimitiveId id);
 
 /// Unit shading normal of a triangle at barycentric weights (1-u-v, u, v), root system, on the side that the file's
 /// normals (or, without them, the winding) define.
-/// geometric  the triangle's own unit normal in the root system; used where the file has no normals or where they cancel
-///            out
+/// geometric  the triangle's own unit normal in the root system; used where the file has no normals or where they
+///            cancel out
 glm::dvec3 shading_normal(const Pose& pose, PrimitiveId id, double u, double v, const glm::dvec3& geometric);
 
 /// Unit outward normal of a quadric at a point on it, root system.

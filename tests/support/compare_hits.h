@@ -22,8 +22,8 @@ public:
             }
     }
 
-    /// Rays whose nearest hit is not, bit for bit, the list's; or whose occlusion differs; or of which `other` wrongly says
-    /// that they meet nothing that transmits.
+    /// Rays whose nearest hit is not, bit for bit, the list's; or whose occlusion differs; or of which `other` wrongly
+    /// says that they meet nothing that transmits.
     /// hits  raised by how many of the rays hit something
     int differences(const Strategy<Real>& other, int& hits) const
     {
