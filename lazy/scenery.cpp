@@ -15,10 +15,11 @@ double largest_of(const DAabb& scenery, const Aabb& movers)
     return std::max(largest_coordinate(scenery), static_cast<double>(largest_coordinate(movers))) * (1.0 + 1e-6);
 }
 
-/// What is built of scenery stays as it is, however many frames come.
-GridOptions kept(GridOptions shape)
+/// What is built of scenery stays as it is, however many frames come, and may take time to become better; but not where
+/// rays are weighed against building, since they may be few.
+GridOptions shape_for(bool is_weighed, GridOptions shape)
 {
-    shape.order = PackOrder::by_surface;
+    if (!is_weighed) shape.order = PackOrder::by_surface;
     return shape;
 }
 
@@ -30,7 +31,7 @@ Scenery<Real>::Scenery(const Scene& scene, const RootGeometry<Real>& geometry, s
     : geometry_(geometry),
       movers_(room_of_movers(scene, bounds)),
       largest_(scene.groups[0].primitives() == 0 ? 0.0 : largest_of(bounds[0], movers_)),
-      options_(kept(options)),
+      options_(shape_for(chooser != nullptr, options)),
       ledger_(ledger),
       chooser_(chooser),
       primitives_(scene.groups[0].primitives())
