@@ -5,8 +5,9 @@
 namespace firstray::peers {
 
 /// Loads ray i.
+/// mask     Embree's
 /// returns  false where it meets nothing, whatever the scene
-inline bool load(const RayTile<float>& tile, int i, RTCRay& ray)
+inline bool load(const RayTile<float>& tile, int i, unsigned mask, RTCRay& ray)
 {
     const auto lane = static_cast<std::size_t>(i);
     const glm::vec3 origin = tile.origin_of(i), direction = tile.direction_of(i);
@@ -16,7 +17,7 @@ inline bool load(const RayTile<float>& tile, int i, RTCRay& ray)
     ray.dir_x = direction.x, ray.dir_y = direction.y, ray.dir_z = direction.z;
     ray.tnear = interval.begin, ray.tfar = interval.end;
     ray.time = 0.0f;
-    ray.mask = mask_bits(tile.mask);
+    ray.mask = mask;
     ray.id = static_cast<unsigned>(i);
     ray.flags = 0;
     return true;
@@ -30,7 +31,7 @@ void closest_one_by_one(RTCScene scene, RayTile<float>& tile, const BodyOf& body
         const auto lane = static_cast<std::size_t>(i);
         tile.primitive[lane] = no_primitive;
         RTCRayHit query;
-        if (!load(tile, i, query.ray)) continue;
+        if (!load(tile, i, mask_bits(tile.mask), query.ray)) continue;
         query.hit.geomID = query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
         rtcIntersect1(scene, &context, &query);
         if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) continue;
@@ -47,8 +48,7 @@ inline void occluded_one_by_one(RTCScene scene, RayTile<float>& tile, PrimitiveI
     for (int i = 0; i < tile.count; ++i) {
         RTCRay ray;
         bool is_met = false;
-        if (load(tile, i, ray)) {
-            ray.mask = shadow_mask_bits(tile);
+        if (load(tile, i, shadow_mask_bits(tile), ray)) {
             rtcOccluded1(scene, &context, &ray);
             is_met = ray.tfar < 0.0f;  // minus infinity where something was met
         }

@@ -15,8 +15,8 @@ namespace firstray::inline v0 {
 namespace HWY_NAMESPACE {
 
 /// A beam's search of one structure.
-/// Primitives  what is tested, in the root system: `quadric(id)`, and `triangle(id)` where `stand_in_packs` does not say
-///             that triangles are, bit for bit, those of the packs
+/// Primitives  what is tested, in the root system: `quadric(id)`, and `triangle(id)` unless `stand_in_packs` says that
+///             triangles are, bit for bit, those of the packs
 template <class BeamQuest, class Primitives>
 struct BeamSearch {
     BeamQuest& quest;

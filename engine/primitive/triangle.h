@@ -202,7 +202,7 @@ FIRSTRAY_INLINE TriangleHit<float> intersect(const RootTriangle<float>& triangle
         triangle_plane(widened(triangle).v, glm::dvec3(origin), glm::dvec3(direction), 1.0);
     const bool is_good = (int{is_sloped} & int{std::abs(t_in_float) * length >= least_distance * distance}) != 0;
     float t = is_good ? t_in_float : static_cast<float>(fine.height / fine.slope);
-    if (!is_good && !fine.is_sloped(largest_component<double>(glm::dvec3(direction)))) [[unlikely]]
+    if (!is_good && !fine.is_sloped(static_cast<double>(length))) [[unlikely]]
         t = plane_t_in_double(triangle, origin, direction);
     if (!range.contains(t)) return {};
 

@@ -171,8 +171,10 @@ template <typename Real>
 void RayTree<Real>::light_and_spawn(bool spawn)
 {
     light_.clear();
-    for (Surface& surface : surfaces_) surface.texture = surface.place.colour();
-    for (const Surface& surface : surfaces_) light_.push_back(ambient_term(surface, pose_.scene->ambient));
+    for (Surface& surface : surfaces_) {
+        surface.texture = surface.place.colour();
+        light_.push_back(ambient_term(surface, pose_.scene->ambient));
+    }
     for (std::size_t light = 0; light < pose_.lights.size(); ++light) {
         const auto& visibility = shadows_.trace(surfaces_, surface_slots_, pose_.lights[light]);
         for (std::size_t k = 0; k < surfaces_.size(); ++k) {

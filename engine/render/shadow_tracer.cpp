@@ -30,7 +30,7 @@ auto ShadowTracer<Real>::trace(std::span<const Surface> surfaces, const Slots& s
     if (rays_.count == 0) return visibility_;
     rays_.mask = any_transmitting_ ? RayMask::opaque : RayMask::all;
     rays_traced_ += static_cast<std::uint64_t>(rays_.count);
-    may_pass_.fill(1);
+    may_pass_.fill(any_transmitting_ ? 1 : 0);
     rays_.may_pass = any_transmitting_ ? may_pass_.data() : nullptr;
     search_.occluded(rays_, slots_);
     rays_.may_pass = nullptr;
@@ -69,7 +69,7 @@ void ShadowTracer<Real>::drop_finished()
         if (rays_.primitive[lane] != no_primitive) continue;
         visibility_[surface_[lane]] = 1.0f;
         rays_traced_ += any_transmitting_;
-        if (any_transmitting_ && may_pass_[lane] != 0) keep(kept++, i);
+        if (may_pass_[lane] != 0) keep(kept++, i);
     }
     rays_.count = kept;
 }

@@ -30,6 +30,7 @@ public:
         int different = 0;
         for (std::size_t tile = 0; tile < tiles_.size(); ++tile) {
             const auto& [first, expected] = tiles_[tile];
+            // A third of the tiles for each mask; of the same rays, those for the next mask come so much later.
             const RayTile<Real>* const transmitting =
                 expected->mask == RayMask::opaque ? tiles_[tile + tiles_.size() / 3].found.get() : nullptr;
             std::vector<std::uint8_t> may_pass(static_cast<std::size_t>(expected->count), 1);
